@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <Eigen/Geometry>
+#include <cmath>
+#include <span>
+#include <string_view>
+
+#include <vantage/core/error.hpp>
+
+namespace vantage {
+
+/// From where to look: the camera's pose. Camera x right, y down, z forward; world z up; metres.
+struct View {
+  Eigen::Isometry3d T_W_C = Eigen::Isometry3d::Identity();  ///< camera points to world points
+
+  [[nodiscard]] Eigen::Vector3d position() const { return T_W_C.translation(); }
+  [[nodiscard]] Eigen::Vector3d forward() const { return T_W_C.linear().col(2); }
+};
+
+using Views = std::span<const View>;
+
+/// A view straight down from (x, y, z) [m]: camera x = world x, camera y = -world y.
+inline View nadir(double x_m, double y_m, double z_m) {
+  View v;
+  v.T_W_C.linear() << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  v.T_W_C.translation() << x_m, y_m, z_m;
+  return v;
+}
+
+/// A view from `eye` towards `target` [m] whose image is upright (world z up; looking along z, up is world y).
+inline View look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
+  Eigen::Vector3d forward = target - eye;
+  if (!(forward.norm() > 0)) throw Error("look_at", "eye and target coincide or are not finite", "two distinct points");
+  forward.normalize();
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  if (forward.cross(up).norm() < 1e-9) up = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d right = forward.cross(up).normalized();
+  View v;
+  v.T_W_C.linear() << right, forward.cross(right), forward;
+  v.T_W_C.translation() = eye;
+  return v;
+}
+
+/// Straight-line distance between two views [m]; orientation does not count.
+inline double distance_m(const View& a, const View& b) { return (a.position() - b.position()).norm(); }
+
+/// Throws Error unless the pose is finite and its linear part a rotation (to 1e-6).
+inline void check_view(const View& view, std::string_view where) {
+  if (!view.T_W_C.matrix().allFinite()) throw Error(where, "the view's pose is not finite", "finite coefficients");
+  const Eigen::Matrix3d r = view.T_W_C.linear();
+  if (!(r.transpose() * r).isIdentity(1e-6) || r.determinant() < 0)
+    throw Error(where, "the view's pose is no rigid transform", "a rotation with determinant 1");
+}
+
+}  // namespace vantage
