@@ -20,6 +20,7 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/mission/record.hpp>
+#include <vantage/mission/text.hpp>
 
 namespace vantage {
 
@@ -28,27 +29,6 @@ inline std::optional<int> terminal_columns(int fd) {
   if (::isatty(fd) == 0) return std::nullopt;
   ::winsize size{};
   return ::ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? int{size.ws_col} : 80;
-}
-
-/// `x` in at most six characters or so, as people write numbers: "0.0423", "12.3", "4096".
-inline std::string short_number(double x) {
-  if (std::isnan(x)) return "-";
-  if (std::isinf(x)) return x > 0 ? "inf" : "-inf";
-  const double a = std::abs(x);
-  char text[32];
-  if (x == std::round(x) && a < 1e6) std::snprintf(text, sizeof text, "%.0f", x);
-  else if (a >= 100 && a < 1e6) std::snprintf(text, sizeof text, "%.1f", x);
-  else std::snprintf(text, sizeof text, "%.3g", x);
-  return text;
-}
-
-/// Seconds as "0:07", "12:05" or "1:02:03".
-inline std::string short_time(double seconds) {
-  const auto s = static_cast<std::uint64_t>(std::clamp(std::round(seconds), 0.0, 1e9));
-  char text[32];
-  if (s < 3600) std::snprintf(text, sizeof text, "%d:%02d", static_cast<int>(s / 60), static_cast<int>(s % 60));
-  else std::snprintf(text, sizeof text, "%d:%02d:%02d", static_cast<int>(s / 3600), static_cast<int>(s / 60 % 60), static_cast<int>(s % 60));
-  return text;
 }
 
 struct ProgressConfig {

@@ -123,17 +123,4 @@ TEST(Progress, RefusesABadConfig) {
   EXPECT_THROW(Progress(record, out, {.budget_steps = 0}), Error);
 }
 
-TEST(Progress, NumbersAsPeopleWriteThem) {
-  EXPECT_EQ(short_number(4096), "4096");
-  EXPECT_EQ(short_number(0.042345), "0.0423");
-  EXPECT_EQ(short_number(123.456), "123.5");
-  EXPECT_EQ(short_number(-1e9), "-1e+09");
-  EXPECT_EQ(short_number(std::numeric_limits<double>::quiet_NaN()), "-");
-  EXPECT_EQ(short_number(std::numeric_limits<double>::infinity()), "inf");
-  EXPECT_EQ(short_time(0), "0:00");
-  EXPECT_EQ(short_time(59.6), "1:00");
-  EXPECT_EQ(short_time(725), "12:05");
-  EXPECT_EQ(short_time(3723), "1:02:03");
-}
-
 }  // namespace
