@@ -4,13 +4,15 @@
 # What examples/run, tests/run, benchmarks/run and .ci/run share; to be sourced from bash.
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 jobs=${VANTAGE_JOBS:-$(nproc)}
+script=$(cd "$(dirname "$0")" && pwd)/${0##*/}
+script=${script#"$root"/}
 
 packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libstb-dev libqhull-dev nlohmann-json3-dev libcli11-dev
           libgtest-dev libbenchmark-dev libopenblas-dev"
 
 # Ends the script with one clear line.
 fail() { # exit code, line
-  printf '%s: %s\n' "${0##*/}" "$2" >&2
+  printf '%s: %s\n' "$script" "$2" >&2
   exit "$1"
 }
 

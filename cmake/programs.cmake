@@ -25,12 +25,16 @@ if(VANTAGE_REQUIRE_GOLDEN AND NOT IS_DIRECTORY "${VANTAGE_GOLDEN_DIR}")
   message(FATAL_ERROR "VANTAGE_REQUIRE_GOLDEN: VANTAGE_GOLDEN_DIR is '${VANTAGE_GOLDEN_DIR}', which is no folder")
 endif()
 
-add_library(vantage_programs INTERFACE)
-target_link_libraries(vantage_programs INTERFACE vantage::vantage vantage::io vantage::sim vantage::mission
-                                                 $<$<BOOL:${VANTAGE_NATIVE}>:vantage::native>)
-target_compile_options(vantage_programs INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
-target_compile_definitions(vantage_programs INTERFACE
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+add_library(vantage_strict INTERFACE)
+target_link_libraries(vantage_strict INTERFACE vantage::vantage vantage::io vantage::sim vantage::mission)
+target_compile_options(vantage_strict INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+target_compile_definitions(vantage_strict INTERFACE
   VANTAGE_GOLDEN_DIR="${VANTAGE_GOLDEN_DIR}" VANTAGE_DATA_DIR="${VANTAGE_DATA_DIR}")
+
+add_library(vantage_programs INTERFACE)
+target_link_libraries(vantage_programs INTERFACE vantage_strict $<$<BOOL:${VANTAGE_NATIVE}>:vantage::native>)
 
 # One program a source file of this folder: NAME from NAME.cpp, under PREFIX in the list of targets.
 function(vantage_programs_from prefix pattern) # libraries...
