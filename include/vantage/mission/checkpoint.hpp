@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,8 +20,8 @@
 
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
+#include <vantage/io/file.hpp>
 #include <vantage/loop/mission_state.hpp>
-#include <vantage/mission/atomic_file.hpp>
 #include <vantage/version.hpp>
 
 // A mission on disk, so that it survives the process. The file: magic, format, library version, then every part's type
@@ -128,7 +129,7 @@ struct CheckpointConfig {
 
 /// Observer that keeps a mission on disk: after a measurement, the map, the clock, the mission's state and whatever of
 /// the world, the utility, the sampler, the selector and the riders (other observers, such as the Recorder) is
-/// Persistent, in one file that is whole at any moment (write_atomically). It must come after its riders in the list of
+/// Persistent, in one file that is whole at any moment (io/file.hpp). It must come after its riders in the list of
 /// observers. A policy with a memory that is not Persistent forgets it on resumption.
 ///
 ///     Checkpoint checkpoint(CheckpointConfig{.file = out / "mission.checkpoint"}, recorder);
@@ -158,7 +159,7 @@ class Checkpoint {
 
   template <class Loop, class W, class C>
   void save(const Loop& loop, const W& world, const C& clock, const MissionState& state) {
-    write_atomically(config_.file, std::apply([](const auto&... parts) { return checkpoint_bytes(parts...); },
+    write_file(config_.file, std::apply([](const auto&... parts) { return checkpoint_bytes(parts...); },
                                               parts(loop, world, clock, state)));
     saved_step_ = state.visited.size();
     saved_at_ = std::chrono::steady_clock::now();
@@ -168,9 +169,10 @@ class Checkpoint {
   /// changed, if it is damaged or another mission's.
   template <class Loop, class W, class C>
   bool load(Loop& loop, W& world, C& clock, MissionState& state) {
-    const auto bytes = read_bytes(config_.file);
-    if (!bytes) return false;
-    std::apply([&](auto&... parts) { restore_checkpoint(*bytes, config_.file.string(), parts...); },
+    if (!std::filesystem::exists(config_.file)) return false;
+    const std::string bytes = read_file(config_.file, std::numeric_limits<std::size_t>::max());
+    const auto view = std::as_bytes(std::span(bytes.data(), bytes.size()));
+    std::apply([&](auto&... parts) { restore_checkpoint(view, config_.file.string(), parts...); },
                parts(loop, world, clock, state));
     saved_step_ = state.visited.size();
     saved_at_ = std::chrono::steady_clock::now();

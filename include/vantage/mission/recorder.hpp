@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <vantage/mission/atomic_file.hpp>
+#include <vantage/io/file.hpp>
 #include <vantage/mission/record.hpp>
 
 namespace vantage {
@@ -30,7 +30,7 @@ struct RecorderConfig {
 ///
 /// `metrics(map)` returns what to say about the map, the same names every time; it is not counted as mission time.
 /// Persistent: a checkpoint that holds the recorder lets a resumed mission end in the same file, byte for byte (with a
-/// modelled clock). Throws std::system_error if the file cannot be written.
+/// modelled clock). Throws Error if the file cannot be written.
 template <class Metrics>
 class Recorder {
  public:
@@ -107,7 +107,7 @@ class Recorder {
     record_.steps.push_back(std::move(r));
   }
   void write() {
-    if (!file_.empty()) write_atomically(file_, mission_json(record_));
+    if (!file_.empty()) write_file(file_, mission_json(record_));
     written_ = std::chrono::steady_clock::now();
   }
   // " (resolution: 32 there, 16 here)" for as much as can be read.

@@ -22,8 +22,7 @@ using Metrics = std::remove_const_t<decltype(metrics)>;
 using Json = nlohmann::ordered_json;
 
 Json parsed(const std::filesystem::path& file) {
-  const auto bytes = read_bytes(file).value();
-  return Json::parse(reinterpret_cast<const char*>(bytes.data()), reinterpret_cast<const char*>(bytes.data()) + bytes.size());
+  return Json::parse(read_file(file, std::size_t{1} << 30));
 }
 
 RecorderConfig config_in(const toy::Folder& folder) {
