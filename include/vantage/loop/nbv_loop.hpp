@@ -50,11 +50,7 @@ struct Step {
 /// concurrently. The loop itself allocates what a step by hand would: one vector of utilities.
 template <class MapT, class UtilityT, class SamplerT, class SelectorT>
 class NbvLoop {
-  static_assert(Map<MapT>, "vantage: MapT is no Map: it needs a Measurement type, `void integrate(const Measurement&, Rng&)` and `Box3 bounds() const`, and must be movable");
-  static_assert(Explain<MapT, UtilityT>::check() && Explain<MapT, SamplerT>::check() && Explain<MapT, SelectorT>::check());
-  static_assert(UtilityFor<UtilityT, MapT>, "vantage: UtilityT scores no view of this map: give it `double operator()(const MapT&, const View&) const`, the same with `const Situation&` in between, or `auto prepare(const MapT&, const Situation&, Rng) const`");
-  static_assert(SamplerFor<SamplerT, MapT>, "vantage: SamplerT proposes no views: give it `Candidates sample(const MapT&, const Situation&, const Score&, Rng&)`");
-  static_assert(SelectorFor<SelectorT, MapT>, "vantage: SelectorT decides nothing: give it `std::optional<Decision> select(const MapT&, const Situation&, const Candidates&, const Score&, Rng&)`");
+  static_assert(ExplainLoop<MapT, UtilityT, SamplerT, SelectorT>::check());
 
  public:
   using MapType = MapT;
@@ -99,7 +95,7 @@ class NbvLoop {
   /// there is nowhere to go, or until the world ends. Observers may have any of `started(map, situation)`,
   /// `measured(map, situation, step)`, `completed(loop, world, clock, state)` (after every measurement: all that is
   /// needed to go on later) and `finished(map, situation, reason)`; the missing ones cost nothing.
-  template <WorldFor<MapT> W, StopRuleFor<MapT> Stop, ClockLike C, class... Observers>
+  template <class W, class Stop, class C, class... Observers>
   MissionState run(W& world, const View& start, Views first, const Stop& stop, C&& clock, Rng rng,
                    Observers&&... observers) {
     check_view(start, "NbvLoop::run (start)");
@@ -110,8 +106,9 @@ class NbvLoop {
 
   /// Goes on from `state`: with the map, the policies, the clock and the world as they were then, the mission ends in
   /// the same bytes as without the interruption.
-  template <WorldFor<MapT> W, StopRuleFor<MapT> Stop, ClockLike C, class... Observers>
+  template <class W, class Stop, class C, class... Observers>
   StopReason resume(W& world, MissionState& state, Views first, const Stop& stop, C& clock, Observers&&... observers) {
+    static_assert(ExplainRun<MapT, W, Stop, C>::check());
     const auto situation = [&] {
       Situation q{.here = state.here, .visited = state.visited, .elapsed_s = clock.elapsed_s(),
                   .travelled_m = state.travelled_m, .step = state.visited.size()};
@@ -155,7 +152,7 @@ class NbvLoop {
       clock.mapped();
       if constexpr (Posed<typename MapT::Measurement>) state.here = z->view; else state.here = goal;
       state.visited.push_back(state.here);
-      const Step<typename MapT::Measurement> done{.index = step + 1, .measurement = *z,
+      [[maybe_unused]] const Step<typename MapT::Measurement> done{.index = step + 1, .measurement = *z,
                                                   .plan = plan_made ? &*plan_made : nullptr, .planning_s = planning_s,
                                                   .mapping_s = clock.elapsed_s() - before_s, .action_s = action_s};
       (tell_measured(observers, situation(), done), ...);

@@ -88,13 +88,20 @@ class Full {
   [[nodiscard]] double covariance(std::size_t i, std::size_t j) const {
     return static_cast<double>(k_(static_cast<Index>(std::max(i, j)), static_cast<Index>(std::min(i, j))));
   }
-  /// q K q^T of a weighted average over a group of cells.
-  [[nodiscard]] double average_variance(const LeafGroup& g, std::span<const double> weight) const {
-    const double settled = settled_average_variance(g, weight);
-    if (w_.cols() == 0) return settled;
-    const auto first = static_cast<Index>(g.first), count = static_cast<Index>(g.last - g.first);
-    const Eigen::Map<const Eigen::VectorXd> q(weight.data() + g.first, count);
-    return settled - static_cast<double>((w_.middleCols(first, count) * q.template cast<T>()).squaredNorm());
+  /// q K q^T for the weighted average over each parent's leaves.
+  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents, std::span<const double> weight) const {
+    std::vector<double> out(parents.size());
+    parallel_for_blocks(parents.size(), 16, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) {
+        const LeafGroup& g = parents[k].leaves;
+        out[k] = settled_average_variance(g, weight);
+        if (w_.cols() == 0) continue;
+        const auto first = static_cast<Index>(g.first), count = static_cast<Index>(g.last - g.first);
+        const Eigen::Map<const Eigen::VectorXd> q(weight.data() + g.first, count);
+        out[k] -= static_cast<double>((w_.middleCols(first, count) * q.template cast<T>()).squaredNorm());
+      }
+    });
+    return out;
   }
 
   /// Folds measurements in. Throws Error, changing nothing, if S = H K H^T + R is not positive definite.
@@ -170,7 +177,7 @@ class Full {
   /// of the cells H is tr(S^-1 M[H, H]), S = K[H, H] + R. n^2 |HS| flops once, then 2 l^3 a candidate.
   class Forecaster {
    public:
-    Forecaster(const Full& belief, std::span<const std::uint8_t> target) : k_(&belief.k_) {
+    Forecaster(const Full& belief, const NdTree&, std::span<const std::uint8_t> target) : k_(&belief.k_) {
       for (std::size_t i = 0; i < target.size(); ++i)
         if (target[i]) target_.push_back(i);
     }

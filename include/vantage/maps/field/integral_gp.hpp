@@ -100,7 +100,7 @@ class IntegralGp {
   void forecast(Views given, Views views, std::span<double> reduction) const {
     std::vector<std::uint8_t> target(size());
     for (std::size_t i = 0; i < size(); ++i) target[i] = interest().target(mean(i), variance(i));
-    typename Belief::Forecaster forecaster(belief_, target);
+    typename Belief::Forecaster forecaster(belief_, tree_, target);
     for (const View& v : given) forecaster.given(covered(v));
     forecaster.prepare();
     std::vector<CellMeasurements> z(views.size());

@@ -120,28 +120,23 @@ class NdTree {
       }
   }
 
-  /// Replaces each group of leaves by their common parent (groups of one stay).
+  /// The cell that a group of leaves makes up.
+  [[nodiscard]] Leaf parent_of(const LeafGroup& g) const {
+    Leaf a = leaves_[g.first], b = leaves_[g.last - 1];
+    const auto up = [&](Leaf& c) { c.ix /= config_.branching; c.iy /= config_.branching; --c.level; };
+    while (a.level != b.level || a.ix != b.ix || a.iy != b.iy) {
+      const int deeper = std::max(a.level, b.level);
+      if (a.level == deeper) up(a);
+      if (b.level == deeper) up(b);
+    }
+    for (std::size_t i = g.first; i < g.last; ++i) a.measured = a.measured && leaves_[i].measured;
+    return a;
+  }
+  /// Replaces each group of leaves by the cell that they make up.
   void merge(const Merge& m) {
     std::vector<Leaf> merged;
     merged.reserve(m.groups.size());
-    for (const LeafGroup& g : m.groups) {
-      if (g.last - g.first == 1) {
-        merged.push_back(leaves_[g.first]);
-        continue;
-      }
-      int level = leaves_[g.first].level;  // the group covers one cell of the level where first and last meet
-      int x = leaves_[g.first].ix, y = leaves_[g.first].iy;
-      Leaf last = leaves_[g.last - 1];
-      while (level > last.level) { x /= config_.branching; y /= config_.branching; --level; }
-      while (last.level > level) { last.ix /= config_.branching; last.iy /= config_.branching; --last.level; }
-      while (x != last.ix || y != last.iy) {
-        x /= config_.branching; y /= config_.branching; --level;
-        last.ix /= config_.branching; last.iy /= config_.branching;
-      }
-      bool measured = true;
-      for (std::size_t i = g.first; i < g.last; ++i) measured = measured && leaves_[i].measured;
-      merged.push_back({level, x, y, measured});
-    }
+    for (const LeafGroup& g : m.groups) merged.push_back(parent_of(g));
     leaves_ = std::move(merged);
     index_leaves();
   }
@@ -218,6 +213,12 @@ class NdTree {
   std::vector<int> side_;  // N^level
   std::vector<Leaf> leaves_;
   Image<std::int32_t> index_;  // finest cell -> leaf
+};
+
+/// A parent that could replace a group of leaves.
+struct ParentCell {
+  NdTree::Leaf cell;
+  LeafGroup leaves;
 };
 
 }  // namespace vantage
