@@ -1,0 +1,1 @@
+namespace vantage { template <class,class,class> struct GpRegressionMap; }
