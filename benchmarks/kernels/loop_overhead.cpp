@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
-// What composing policies in a loop costs: the same 20 planning steps on a 16 x 16 field map, composed and written by hand,
-// in 31 alternating pairs. Counters: the median ratio of times, and how many more allocations a composed step makes.
+// What composing policies in a loop costs: the same 20 planning steps on a 16 x 16 field map, composed and written by
+// hand, in 31 alternating pairs. Counters: the median ratio of times, and how many more allocations a composed step
+// makes.
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -75,7 +76,8 @@ double by_hand(World world, Gp map) {
 void overhead(benchmark::State& state) {
   const World world(random_field(Rng(1)), DeviationByHeight{0.05}, Rng(2));
   const Gp map = prior();
-  if (composed(world, map) != by_hand(world, map)) throw Error("loop/overhead", "the two fly different missions", "the same");
+  if (composed(world, map) != by_hand(world, map))
+    throw Error("loop/overhead", "the two fly different missions", "the same");
   std::vector<double> ratio;
   double extra = 0;
   for (auto _ : state) {

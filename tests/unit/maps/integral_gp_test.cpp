@@ -114,7 +114,8 @@ void expect_equal_to_slow_filter(int depth, int branching, double tolerance) {
       ASSERT_NEAR(map.mean(i), slow.mean[r], tolerance) << step;
       ASSERT_NEAR(map.variance(i), slow.k(r, r), tolerance) << step;
       if constexpr (requires { map.belief().covariance(i, i); }) {
-        for (std::size_t j = 0; j <= i; ++j) ASSERT_NEAR(map.belief().covariance(i, j), slow.k(r, static_cast<Eigen::Index>(j)), tolerance);
+        for (std::size_t j = 0; j <= i; ++j)
+          ASSERT_NEAR(map.belief().covariance(i, j), slow.k(r, static_cast<Eigen::Index>(j)), tolerance);
       }
     }
   }
@@ -167,10 +168,12 @@ TEST(IntegralGp, BelowIsTheMirrorOfAbove) {
 
 template <class Map>
 class ForecastOf : public testing::Test {};
-using Forecasters = testing::Types<Gp<Full<>, Fixed<>>, Gp<Full<>, Merging<>>, Gp<Diagonal, Fixed<>>, Gp<Latent, Fixed<>>, Gp<Latent, Merging<>>>;
+using Forecasters = testing::Types<Gp<Full<>, Fixed<>>, Gp<Full<>, Merging<>>, Gp<Diagonal, Fixed<>>,
+                                   Gp<Latent, Fixed<>>, Gp<Latent, Merging<>>>;
 TYPED_TEST_SUITE(ForecastOf, Forecasters);
 
-// Eq. 3.13 by its definition: measure, and look what the targets lost. A map that merges is measured with its copy fixed.
+// Eq. 3.13 by its definition: measure, and look what the targets lost. A map that merges is measured with its copy
+// fixed.
 template <class Map>
 double lost(const Map& map, const CellMeasurements& z) {
   auto belief = map.belief();
@@ -190,14 +193,16 @@ TYPED_TEST(ForecastOf, IsWhatTheTargetsLose) {
     Rng rng(4), unused;
     for (int k = 0; k < 6; ++k) map.integrate(image(lawnmower(k), rng), unused);
     std::vector<View> views;
-    for (int k = 0; k < 12; ++k) views.push_back(nadir(rng.uniform(0, 20), rng.uniform(0, 20), rng.uniform(1, k < 6 ? 3 : 12)));
+    for (int k = 0; k < 12; ++k)
+      views.push_back(nadir(rng.uniform(0, 20), rng.uniform(0, 20), rng.uniform(1, k < 6 ? 3 : 12)));
     views.push_back(nadir(100, 100, 2));
     std::vector<double> reduction(views.size());
     map.forecast({}, views, reduction);
     EXPECT_EQ(reduction.back(), 0);
     views.pop_back();
     for (std::size_t k = 0; k < views.size(); ++k) {
-      const auto z = map.config().sensor.covered(map.tree(), map.config().sensor.camera.footprint(views[k]), views[k].position().z());
+      const auto z = map.config().sensor.covered(map.tree(), map.config().sensor.camera.footprint(views[k]),
+                                                 views[k].position().z());
       EXPECT_NEAR(reduction[k], lost(map, z), 1e-7 * (1 + reduction[k])) << k;
     }
     std::vector<double> after(views.size());
@@ -222,7 +227,8 @@ TYPED_TEST(ForecastOf, GivenViewsCountAsMeasured) {
   std::vector<double> before(map.size());
   for (std::size_t i = 0; i < map.size(); ++i) before[i] = map.variance(i);
   for (const View& v : {views[0], views[1]}) {
-    CellMeasurements z = map.config().sensor.covered(map.tree(), map.config().sensor.camera.footprint(v), v.position().z());
+    CellMeasurements z =
+        map.config().sensor.covered(map.tree(), map.config().sensor.camera.footprint(v), v.position().z());
     z.value = Eigen::VectorXd::Zero(z.noise_variance.size());
     belief.fuse(map.tree(), z);
     belief.settle();
@@ -277,8 +283,9 @@ TEST(Latent, KeepsItsBound) {
 
 template <class Map>
 class IntegralGpOf : public testing::Test {};
-using Maps = testing::Types<Gp<Full<>, Merging<>>, Gp<Full<float>, Fixed<>>, Gp<Diagonal, Merging<>>, Gp<Latent, Merging<>>,
-                            Gp<Full<>, Merging<Above<DeviationMargin>, true>, CellAverage, CellSensor<DeviationGrowsWithHeight, SkipPartial>>>;
+using Maps = testing::Types<
+    Gp<Full<>, Merging<>>, Gp<Full<float>, Fixed<>>, Gp<Diagonal, Merging<>>, Gp<Latent, Merging<>>,
+    Gp<Full<>, Merging<Above<DeviationMargin>, true>, CellAverage, CellSensor<DeviationGrowsWithHeight, SkipPartial>>>;
 TYPED_TEST_SUITE(IntegralGpOf, Maps);
 
 TYPED_TEST(IntegralGpOf, RefusesBadImagesUnchanged) {
@@ -416,7 +423,8 @@ TEST(IntegralGp, NamesEveryBadValue) {
   EXPECT_THROW((Gp<Full<>, Merging<>>(c)), Error);
 }
 
-// Cells a thousandth of the kernel's length apart are the same to working precision; without noise nothing can invert S.
+// Cells a thousandth of the kernel's length apart are the same to working precision; without noise nothing can invert
+// S.
 TEST(IntegralGp, SaysWhenTheKernelIsNotPositiveDefinite) {
   Gp<Full<>, Fixed<>>::Config c;
   c.tree.depth = 4;

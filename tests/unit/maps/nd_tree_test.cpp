@@ -111,9 +111,7 @@ TEST(NdTree, RefusesTreesThatAreNone) {
     try {
       other.load(source);
       expect_tiling(other);  // only a "measured" flag may change without harm
-    } catch (const Error&) {
-      EXPECT_EQ(other.size(), 16u);
-    }
+    } catch (const Error&) { EXPECT_EQ(other.size(), 16u); }
   }
   for (std::size_t size = 0; size < good.size(); ++size) {
     NdTree other(config(2, 2));
