@@ -19,6 +19,8 @@ struct Field;
 struct Coverage;
 struct Occupancy;
 struct Fisher;
+template <class Kind>
+struct Regions;  ///< frontier or low_confidence
 }  // namespace need
 
 /// A policy's statement of what it asks of a map: `using MapNeeds = Needs<need::Uncertainty>;`
@@ -59,6 +61,7 @@ template <class M> inline constexpr bool offers<M, need::Field> = FieldMap<M>;
 template <class M> inline constexpr bool offers<M, need::Coverage> = CoverageMap<M>;
 template <class M> inline constexpr bool offers<M, need::Occupancy> = OccupancyMap<M>;
 template <class M> inline constexpr bool offers<M, need::Fisher> = FisherMap<M>;
+template <class M, class Kind> inline constexpr bool offers<M, need::Regions<Kind>> = RegionMap<M, Kind>;
 
 /// The Map concept piece by piece, so that a refusal says which piece is missing.
 template <class M>
@@ -102,6 +105,8 @@ struct Explain {
       static_assert(offers<M, N>, "vantage: this policy needs an OccupancyMap: give the map `Space at(const Eigen::Vector3d&) const`, or pair it with a VoxelMap");
     else if constexpr (std::is_same_v<N, need::Fisher>)
       static_assert(offers<M, N>, "vantage: this policy needs a FisherMap: give the map parameters() and `void fisher(const View&, const Camera&, std::span<double>) const`");
+    else if constexpr (std::is_same_v<N, need::Regions<frontier>> || std::is_same_v<N, need::Regions<low_confidence>>)
+      static_assert(offers<M, N>, "vantage: this policy needs a RegionMap: give the map `std::vector<Region> regions(Kind) const` for this kind (frontier or low_confidence) and `Space at(const Eigen::Vector3d&) const`, or pair it with a VoxelMap");
     else
       static_assert(offers<M, N>, "vantage: this policy needs what the map does not offer: specialise vantage::offers<Map, Need> where it does");
     return offers<M, N>;

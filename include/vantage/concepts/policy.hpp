@@ -18,8 +18,8 @@ namespace vantage {
 
 /// The mission as a policy may see it: all the history that a pure policy needs. Refers to the loop's own views.
 struct Situation {
-  View here;                                                       ///< where the robot is
-  Views visited;                                                   ///< every view measured so far, oldest first
+  View here = {};                                                  ///< where the robot is
+  Views visited = {};                                              ///< every view measured so far, oldest first
   double elapsed_s = 0;                                            ///< mission time
   double remaining_s = std::numeric_limits<double>::infinity();    ///< if the stop rule knows
   double travelled_m = 0;
