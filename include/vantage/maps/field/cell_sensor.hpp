@@ -47,6 +47,14 @@ struct SkipPartial {
   [[nodiscard]] static double variance(double) { return 0; }
 };
 
+/// <reference>, fixed maps: cells that are seen in part count in full.
+struct CountPartial {
+  static constexpr std::string_view name = "count_partial";
+  static constexpr double beta = 0;
+  [[nodiscard]] static bool takes(double) { return true; }
+  [[nodiscard]] static double variance(double) { return 0; }
+};
+
 /// Sensor model of section 3.1.3 (Fig. 3.2): a cell's measurement is the mean of the pixels whose centres lie in it,
 /// with noise that grows with height and with the part of the cell that was not seen. Immutable; thread-safe.
 template <class HeightNoise = VarianceGrowsWithHeight, class PartialCells = WeighPartial>
@@ -125,12 +133,13 @@ struct CellSensor {
   }
 
  private:
-  // Pixels [first, last) of n along an axis whose centres lie in [low, high]; the nearest one if there is none.
+  // Pixels [first, last) of n along an axis whose centres lie inside (low, high); the nearest one if there is none. A
+  // centre on an edge between two cells counts for neither, so that no noise is shared.
   static std::pair<Eigen::Index, Eigen::Index> pixels(double low, double high, double from, double to, Eigen::Index n) {
     const double pixel = (to - from) / static_cast<double>(n), slack = 1e-6;
     auto first =
-        static_cast<Eigen::Index>(std::clamp(std::floor((low - from) / pixel + 0.5 - slack), 0.0, double(n - 1)));
-    auto last = static_cast<Eigen::Index>(std::clamp(std::ceil((high - from) / pixel - 0.5 + slack), 1.0, double(n)));
+        static_cast<Eigen::Index>(std::clamp(std::floor((low - from) / pixel + 0.5 + slack), 0.0, double(n - 1)));
+    auto last = static_cast<Eigen::Index>(std::clamp(std::ceil((high - from) / pixel - 0.5 - slack), 1.0, double(n)));
     if (last <= first) last = first + 1;
     return {first, last};
   }
