@@ -17,6 +17,7 @@
 #include <vantage/core/dense.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
+#include <vantage/maps/field/full.hpp>
 #include <vantage/maps/field/nd_tree.hpp>
 #include <vantage/maps/field/prior.hpp>
 
