@@ -45,6 +45,9 @@ inline View look_at(const Eigen::Vector3d& eye, const Eigen::Vector3d& target) {
 /// Straight-line distance between two views [m]; orientation does not count.
 inline double distance_m(const View& a, const View& b) { return (a.position() - b.position()).norm(); }
 
+/// Whether two views are taken from the same point, to a nanometre; orientation does not count.
+inline bool same_place(const View& a, const View& b) { return distance_m(a, b) <= 1e-9; }
+
 /// Throws Error unless the pose is finite and its linear part a rotation (to 1e-6).
 inline void check_view(const View& view, std::string_view where) {
   if (!view.T_W_C.matrix().allFinite()) throw Error(where, "the view's pose is not finite", "finite coefficients");
