@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <vantage/core/bytes.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
@@ -26,10 +28,15 @@ class Diagonal {
 
   [[nodiscard]] double mean(std::size_t i) const { return mean_[static_cast<Eigen::Index>(i)]; }
   [[nodiscard]] double variance(std::size_t i) const { return variance_[static_cast<Eigen::Index>(i)]; }
-  [[nodiscard]] double average_variance(const LeafGroup& g, std::span<const double> weight) const {
-    double sum = 0;
-    for (std::size_t i = g.first; i < g.last; ++i) sum += weight[i] * variance(i);
-    return sum;
+  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
+                                                     std::span<const double> weight) const {
+    std::vector<double> out;
+    for (const ParentCell& p : parents) {
+      double sum = 0;
+      for (std::size_t i = p.leaves.first; i < p.leaves.last; ++i) sum += weight[i] * variance(i);
+      out.push_back(sum);
+    }
+    return out;
   }
 
   void fuse(const NdTree&, const CellMeasurements& z) {
@@ -59,7 +66,7 @@ class Diagonal {
   /// Forecasts by independent cells: each measured target loses k^2 / (k + r).
   class Forecaster {
    public:
-    Forecaster(const Diagonal& belief, std::span<const std::uint8_t> target)
+    Forecaster(const Diagonal& belief, const NdTree&, std::span<const std::uint8_t> target)
         : variance_(belief.variance_), target_(target.begin(), target.end()) {}
     void given(const CellMeasurements& z) {
       for (std::size_t k = 0; k < z.cells.size(); ++k) variance_[at(z, k)] -= loss(z, k);
@@ -82,8 +89,13 @@ class Diagonal {
     std::vector<std::uint8_t> target_;
   };
 
-  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(mean_.size() + variance_.size()) * sizeof(double); }
-  void save(Sink& sink) const { sink.put(mean_); sink.put(variance_); }
+  [[nodiscard]] std::size_t bytes() const {
+    return static_cast<std::size_t>(mean_.size() + variance_.size()) * sizeof(double);
+  }
+  void save(Sink& sink) const {
+    sink.put(mean_);
+    sink.put(variance_);
+  }
   void load(Source& source, const NdTree& tree) {
     Eigen::VectorXd mean, variance;
     load_column(source, mean, tree.size());

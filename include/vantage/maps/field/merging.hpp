@@ -5,6 +5,7 @@
 #include <concepts>
 #include <cstddef>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <vantage/maps/field/interest.hpp>
@@ -20,7 +21,9 @@ struct Fixed {
   I interest = {};
 
   template <class Belief>
-  [[nodiscard]] bool plan(const NdTree&, const Belief&, Merge&) const { return false; }
+  [[nodiscard]] bool plan(const NdTree&, const Belief&, Merge&) const {
+    return false;
+  }
 };
 
 /// Adaptive resolution (section 3.1.5): a parent replaces its P children where all are uninteresting leaves (eq. 3.8),
@@ -31,48 +34,63 @@ struct Merging {
   using InterestType = I;
   I interest = {};
 
-  /// Fills `merge` and returns whether there is anything to merge. One pass with a stack over the depth-first leaves:
-  /// O(n), and for each merged parent the variance of its average.
+  /// Fills `merge` and returns whether there is anything to merge. Level by level, so that a belief may compute the
+  /// variances of all of a level's new parents at once. O(n) a level.
   template <class Belief>
   [[nodiscard]] bool plan(const NdTree& tree, const Belief& belief, Merge& merge) const {
     struct Node {
-      int level, ix, iy;
-      std::size_t first, last;
+      NdTree::Leaf cell;
+      LeafGroup leaves;
       double mean;
       bool dull;
     };
-    const auto n = static_cast<double>(tree.config().branching);
+    const int branching = tree.config().branching;
     const std::size_t p = tree.children();
-    std::vector<Node> stack;
+    const double share = 1 / static_cast<double>(p);
+    const auto dull = [&](const NdTree::Leaf& c, double mean, double variance) {
+      return (!MeasuredOnly || c.measured) && !interest.interesting(mean, variance);
+    };
+    std::vector<Node> nodes;
+    for (std::size_t i = 0; i < tree.size(); ++i)
+      nodes.push_back({tree[i], {i, i + 1}, belief.mean(i), dull(tree[i], belief.mean(i), belief.variance(i))});
     std::vector<double> weight(tree.size(), 1.0);
-    bool any = false;
-    for (std::size_t i = 0; i < tree.size(); ++i) {
-      const NdTree::Leaf& c = tree[i];
-      const double mean = belief.mean(i);
-      stack.push_back({c.level, c.ix, c.iy, i, i + 1, mean,
-                       (!MeasuredOnly || c.measured) && !interest.interesting(mean, belief.variance(i))});
-      while (stack.size() >= p) {
-        const auto children = stack.end() - static_cast<std::ptrdiff_t>(p);
-        const Node& a = stack.back();
-        const int bx = a.ix / tree.config().branching, by = a.iy / tree.config().branching;
-        if (a.level == 0 || !std::all_of(children, stack.end(), [&](const Node& b) {
-              return b.dull && b.level == a.level && b.ix / tree.config().branching == bx &&
-                     b.iy / tree.config().branching == by;
-            }))
-          break;
-        Node parent{a.level - 1, bx, by, children->first, a.last, 0, false};
-        for (auto b = children; b != stack.end(); ++b) parent.mean += b->mean / (n * n);
-        for (std::size_t j = parent.first; j < parent.last; ++j) weight[j] /= n * n;
-        parent.dull = !interest.interesting(
-            parent.mean, belief.average_variance({parent.first, parent.last}, weight));
-        stack.erase(children, stack.end());
-        stack.push_back(parent);
-        any = true;
+    std::vector<ParentCell> parents;
+    std::vector<Node> next;
+    for (int level = tree.config().depth; level > 0; --level) {
+      parents.clear();
+      next.clear();
+      for (std::size_t k = 0; k < nodes.size();) {  // children stand together: P of this level from a first child on
+        const NdTree::Leaf& c = nodes[k].cell;
+        const auto is_sibling = [&](const Node& b) { return b.dull && b.cell.level == level; };
+        if (c.level != level || c.ix % branching != 0 || c.iy % branching != 0 || k + p > nodes.size() ||
+            !std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(k),
+                         nodes.begin() + static_cast<std::ptrdiff_t>(k + p), is_sibling)) {
+          next.push_back(nodes[k++]);
+          continue;
+        }
+        Node parent{{level - 1, c.ix / branching, c.iy / branching, true},
+                    {nodes[k].leaves.first, nodes[k + p - 1].leaves.last},
+                    0,
+                    true};
+        for (const std::size_t end = k + p; k < end; ++k) {
+          parent.mean += share * nodes[k].mean;
+          parent.cell.measured = parent.cell.measured && nodes[k].cell.measured;
+        }
+        for (std::size_t i = parent.leaves.first; i < parent.leaves.last; ++i) weight[i] *= share;
+        parents.push_back({parent.cell, parent.leaves});
+        next.push_back(parent);
       }
+      if (parents.empty()) continue;
+      const std::vector<double> variance = belief.parent_variances(parents, weight);
+      std::size_t made = 0;
+      for (Node& node : next)
+        if (made < parents.size() && node.leaves.first == parents[made].leaves.first)
+          node.dull = dull(node.cell, node.mean, variance[made++]);
+      std::swap(nodes, next);
     }
-    if (!any) return false;
+    if (nodes.size() == tree.size()) return false;
     merge.groups.clear();
-    for (const Node& node : stack) merge.groups.push_back({node.first, node.last});
+    for (const Node& node : nodes) merge.groups.push_back(node.leaves);
     merge.weight = std::move(weight);
     return true;
   }

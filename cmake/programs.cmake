@@ -1,0 +1,56 @@
+# SPDX-FileCopyrightText: 2026 The vantage authors
+# SPDX-License-Identifier: MIT
+
+# What our own programs (tests, benchmarks, examples) share: strict warnings, every component, and where data lies.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+foreach(component IO SIM MISSION)
+  if(NOT VANTAGE_WITH_${component})
+    message(FATAL_ERROR "Tests, benchmarks and examples need VANTAGE_WITH_${component}=ON")
+  endif()
+endforeach()
+
+option(VANTAGE_NATIVE "Build our programs for this machine (vantage::native)" OFF)
+option(VANTAGE_REQUIRE_GOLDEN "Refuse to configure without the golden numbers" OFF)
+foreach(kind golden data) # beside the checkout, where they exist
+  string(TOUPPER ${kind} upper)
+  set(beside "")
+  if(EXISTS "${PROJECT_SOURCE_DIR}/../shared/${kind}")
+    get_filename_component(beside "${PROJECT_SOURCE_DIR}/../shared/${kind}" ABSOLUTE)
+  endif()
+  set(VANTAGE_${upper}_DIR "${beside}" CACHE PATH "Folder of the shared ${kind}; empty: do without")
+endforeach()
+if(VANTAGE_REQUIRE_GOLDEN AND NOT IS_DIRECTORY "${VANTAGE_GOLDEN_DIR}")
+  message(FATAL_ERROR "VANTAGE_REQUIRE_GOLDEN: VANTAGE_GOLDEN_DIR is '${VANTAGE_GOLDEN_DIR}', which is no folder")
+endif()
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+add_library(vantage_strict INTERFACE)
+target_link_libraries(vantage_strict INTERFACE vantage::vantage vantage::io vantage::sim vantage::mission)
+target_compile_options(vantage_strict INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>) # g++ 12 finds one in its own AVX-512 header
+target_compile_definitions(vantage_strict INTERFACE
+  VANTAGE_GOLDEN_DIR="${VANTAGE_GOLDEN_DIR}" VANTAGE_DATA_DIR="${VANTAGE_DATA_DIR}")
+
+add_library(vantage_programs INTERFACE)
+target_link_libraries(vantage_programs INTERFACE vantage_strict $<$<BOOL:${VANTAGE_NATIVE}>:vantage::native>)
+
+# One program a source file of this folder: NAME from NAME.cpp, under PREFIX in the list of targets.
+function(vantage_programs_from prefix pattern) # libraries...
+  file(GLOB sources CONFIGURE_DEPENDS "${pattern}")
+  set(targets "")
+  foreach(source IN LISTS sources)
+    cmake_path(GET source STEM name)
+    if(name STREQUAL "main") # NAME/main.cpp
+      cmake_path(GET source PARENT_PATH folder)
+      cmake_path(GET folder FILENAME name)
+    endif()
+    add_executable(${prefix}_${name} "${source}")
+    set_target_properties(${prefix}_${name} PROPERTIES OUTPUT_NAME ${name})
+    target_link_libraries(${prefix}_${name} PRIVATE vantage_programs ${ARGN})
+    list(APPEND targets ${prefix}_${name})
+  endforeach()
+  set(${prefix}_targets ${targets} PARENT_SCOPE)
+endfunction()

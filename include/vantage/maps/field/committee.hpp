@@ -1,0 +1,4 @@
+namespace vantage {
+template <class, class, class>
+struct BayesianCommittee;
+}

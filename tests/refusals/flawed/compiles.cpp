@@ -1,0 +1,4 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+// expect: anything
+int main() { return 0; }
