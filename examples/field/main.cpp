@@ -104,12 +104,7 @@ class Mission {
 
   template <class Loop>
   void fly(Loop loop) const {
-    if (o_.clock == ClockKind::modelled) fly(std::move(loop), ModelledClock{});
-    else fly(std::move(loop), MeasuredClock{});
-  }
-
-  template <class Loop, class Clock>
-  void fly(Loop loop, Clock clock) const {
+    MissionClock clock(o_.clock);
     const ScalarField& truth = input_.truth;
     const auto interest = loop.map.interest();
     FieldWorld world(truth, WorldNoise<Preset>{.alpha = o_.alpha.value_or(FieldPreset<Preset>{}.alpha)}, Rng(o_.seed).fork(1),
