@@ -23,11 +23,11 @@
 #include <vantage/concepts/policy.hpp>
 #include <vantage/concepts/preset.hpp>
 #include <vantage/concepts/world.hpp>
+#include <vantage/maps/field/batch.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
 #include <vantage/maps/field/committee.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/full.hpp>
-#include <vantage/maps/field/gp_regression_map.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/interest.hpp>
 #include <vantage/maps/field/kernel.hpp>
