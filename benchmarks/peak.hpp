@@ -31,22 +31,27 @@ inline double seconds(auto&& f) {
 template <class T>
 double gemm_flops() {
   constexpr Eigen::Index n = 2048;
-  const vantage::dense::Matrix<T> a = vantage::dense::Matrix<T>::Random(n, n), b = vantage::dense::Matrix<T>::Random(n, n);
+  const vantage::dense::Matrix<T> a = vantage::dense::Matrix<T>::Random(n, n),
+                                  b = vantage::dense::Matrix<T>::Random(n, n);
   vantage::dense::Matrix<T> c(n, n), reference(n, n);
   const double eigen_s = seconds([&] {
-    vantage::dense::for_tiles(n, [&](Eigen::Index j, Eigen::Index nj) { reference.middleCols(j, nj).noalias() = a * b.middleCols(j, nj); });
+    vantage::dense::for_tiles(
+        n, [&](Eigen::Index j, Eigen::Index nj) { reference.middleCols(j, nj).noalias() = a * b.middleCols(j, nj); });
   });
   double best_s = eigen_s;
 #ifdef VANTAGE_HAS_OPENBLAS
   const auto size = static_cast<blasint>(n);
   const double blas_s = seconds([&] {
     if constexpr (std::is_same_v<T, float>)
-      cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, size, 1, a.data(), size, b.data(), size, 0, c.data(), size);
+      cblas_sgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, size, 1, a.data(), size, b.data(), size, 0,
+                  c.data(), size);
     else
-      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, size, 1, a.data(), size, b.data(), size, 0, c.data(), size);
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, size, size, size, 1, a.data(), size, b.data(), size, 0,
+                  c.data(), size);
   });
   if (!c.isApprox(reference, 1e3 * std::numeric_limits<T>::epsilon()))
-    throw vantage::Error("peak/gemm", "OpenBLAS computed a wrong product", "one that this processor computes right (OPENBLAS_CORETYPE)");
+    throw vantage::Error("peak/gemm", "OpenBLAS computed a wrong product",
+                         "one that this processor computes right (OPENBLAS_CORETYPE)");
   best_s = std::min(best_s, blas_s);
 #endif
   const double size_d = static_cast<double>(n);
@@ -74,7 +79,9 @@ inline double stream_bytes() {
     c.setOnes(n);
   }
   const double s = seconds([&] {
-    vantage::dense::for_tiles(n, [&](Eigen::Index i, Eigen::Index k) { a.segment(i, k).noalias() = b.segment(i, k) + 3.0 * c.segment(i, k); }, 1 << 16);
+    vantage::dense::for_tiles(
+        n, [&](Eigen::Index i, Eigen::Index k) { a.segment(i, k).noalias() = b.segment(i, k) + 3.0 * c.segment(i, k); },
+        1 << 16);
   });
   return 24.0 * static_cast<double>(n) / s;
 }
@@ -82,7 +89,8 @@ inline double stream_bytes() {
 /// Reports useful flops of one iteration as gflops and as a share of the double-precision peak.
 inline void count_flops(benchmark::State& state, double flops) {
   state.counters["gflops"] = benchmark::Counter(flops * 1e-9, benchmark::Counter::kIsIterationInvariantRate);
-  state.counters["peak_share"] = benchmark::Counter(flops / peak_flops<double>(), benchmark::Counter::kIsIterationInvariantRate);
+  state.counters["peak_share"] =
+      benchmark::Counter(flops / peak_flops<double>(), benchmark::Counter::kIsIterationInvariantRate);
 }
 
 }  // namespace bench

@@ -16,10 +16,12 @@ using Sensor = vantage::CellSensor<vantage::DeviationGrowsWithHeight>;
 /// Images along a lawnmower over 20 m x 20 m, 2.5 m high, 5 m apart; noise of deviation 0.05 h.
 inline const std::vector<vantage::FieldImage>& images() {
   static const std::vector<vantage::FieldImage> all = [] {
-    vantage::FieldWorld world(vantage::random_field(vantage::Rng(1)), vantage::DeviationByHeight{0.05}, vantage::Rng(2));
+    vantage::FieldWorld world(vantage::random_field(vantage::Rng(1)), vantage::DeviationByHeight{0.05},
+                              vantage::Rng(2));
     std::vector<vantage::FieldImage> out;
     for (int row = 0; row < 4; ++row)
-      for (int k = 0; k < 4; ++k) out.push_back(*world.observe(vantage::nadir(2.5 + 5 * (row % 2 ? 3 - k : k), 2.5 + 5 * row, 2.5)));
+      for (int k = 0; k < 4; ++k)
+        out.push_back(*world.observe(vantage::nadir(2.5 + 5 * (row % 2 ? 3 - k : k), 2.5 + 5 * row, 2.5)));
     return out;
   }();
   return all;

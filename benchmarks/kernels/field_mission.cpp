@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
-// Whole mapping missions of section 3.2.1: the prior, 16 updates, merging, and mean and variance of every cell after each.
+// Whole mapping missions of section 3.2.1: the prior, 16 updates, merging, and mean and variance of every cell after
+// each.
 #include "kernels/field_input.hpp"
 #include "peak.hpp"
 
@@ -29,7 +30,8 @@ void mission(benchmark::State& state, int depth) {
   state.SetItemsProcessed(state.iterations() * 16);
   state.counters["cells"] = static_cast<double>(cells);
   state.counters["bytes"] = static_cast<double>(bytes);
-  if constexpr (requires(Gp gp) { gp.belief().rank(); }) state.counters["rank"] = static_cast<double>(Gp(bench::config<Gp>(depth)).belief().rank());
+  if constexpr (requires(Gp gp) { gp.belief().rank(); })
+    state.counters["rank"] = static_cast<double>(Gp(bench::config<Gp>(depth)).belief().rank());
 }
 
 using Dense = IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>, bench::Sensor>;
@@ -49,7 +51,10 @@ BENCHMARK_CAPTURE(merging, 32, 5)->Name("field/mission_merging/32")->Unit(benchm
 BENCHMARK_CAPTURE(dense, 64, 6)->Name("field/mission_dense/64")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(merging, 64, 6)->Name("field/mission_merging/64")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(latent, 64, 6)->Name("field/mission_latent/64")->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK_CAPTURE(latent_fixed, 64, 6)->Name("field/mission_latent_fixed/64")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(latent_fixed, 64, 6)
+    ->Name("field/mission_latent_fixed/64")
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 BENCHMARK_CAPTURE(latent_fixed, 256, 8)->Name("field/mission_latent/256")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

@@ -39,44 +39,59 @@ struct MeasurementHistory {
     batch_end.push_back(cell.size());
   }
   [[nodiscard]] std::size_t bytes() const {
-    return cell.size() * sizeof(NdTree::Leaf) + 2 * cell.size() * sizeof(double) + batch_end.size() * sizeof(std::size_t);
+    return cell.size() * sizeof(NdTree::Leaf) + 2 * cell.size() * sizeof(double) +
+           batch_end.size() * sizeof(std::size_t);
   }
   void save(Sink& sink) const {
     std::vector<std::int32_t> level, ix, iy;
-    for (const NdTree::Leaf& c : cell) { level.push_back(c.level); ix.push_back(c.ix); iy.push_back(c.iy); }
-    sink.put(level); sink.put(ix); sink.put(iy);
-    sink.put(value); sink.put(noise_variance);
+    for (const NdTree::Leaf& c : cell) {
+      level.push_back(c.level);
+      ix.push_back(c.ix);
+      iy.push_back(c.iy);
+    }
+    sink.put(level);
+    sink.put(ix);
+    sink.put(iy);
+    sink.put(value);
+    sink.put(noise_variance);
     sink.put(std::vector<std::uint64_t>(batch_end.begin(), batch_end.end()));
   }
   void load(Source& source, const NdTree& tree) {
     MeasurementHistory h;
     std::vector<std::int32_t> level, ix, iy;
     std::vector<std::uint64_t> end;
-    source.get(level); source.get(ix); source.get(iy);
+    source.get(level);
+    source.get(ix);
+    source.get(iy);
     Eigen::MatrixXd y, r;  // a hostile file may hold any shape
-    source.get(y); source.get(r);
+    source.get(y);
+    source.get(r);
     source.get(end);
     const std::size_t n = level.size();
     const auto rows = static_cast<Eigen::Index>(n);
-    bool sound = ix.size() == n && iy.size() == n && y.rows() == rows && r.rows() == rows && (n == 0 || (y.cols() == 1 && r.cols() == 1));
+    bool sound = ix.size() == n && iy.size() == n && y.rows() == rows && r.rows() == rows &&
+                 (n == 0 || (y.cols() == 1 && r.cols() == 1));
     if (sound) {
       h.value = y.reshaped();
       h.noise_variance = r.reshaped();
     }
     sound = sound && h.value.allFinite() && h.noise_variance.allFinite() && (h.noise_variance.array() > 0).all() &&
-                 std::is_sorted(end.begin(), end.end()) && (end.empty() ? n == 0 : end.back() == n);
+            std::is_sorted(end.begin(), end.end()) && (end.empty() ? n == 0 : end.back() == n);
     for (std::size_t k = 0; sound && k < n; ++k) {
-      sound = level[k] >= 0 && level[k] <= tree.config().depth && ix[k] >= 0 && iy[k] >= 0 && ix[k] < tree.side(level[k]) &&
-              iy[k] < tree.side(level[k]);
+      sound = level[k] >= 0 && level[k] <= tree.config().depth && ix[k] >= 0 && iy[k] >= 0 &&
+              ix[k] < tree.side(level[k]) && iy[k] < tree.side(level[k]);
       h.cell.push_back({level[k], ix[k], iy[k], true});
     }
-    if (!sound) throw Error(source.where(), concat("a history of ", n, " measurements that is not sound"), "cells, finite values, positive variances");
+    if (!sound)
+      throw Error(source.where(), concat("a history of ", n, " measurements that is not sound"),
+                  "cells, finite values, positive variances");
     h.batch_end.assign(end.begin(), end.end());
     *this = std::move(h);
   }
 };
 
-/// What regression says about n cells: their means, and their covariance as K - R^T R or, where that is cheaper, as R^T R.
+/// What regression says about n cells: their means, and their covariance as K - R^T R or, where that is cheaper, as R^T
+/// R.
 struct CellPosterior {
   Eigen::VectorXd mean;
   Eigen::MatrixXd root;
@@ -89,8 +104,8 @@ struct CellPosterior {
   }
 };
 
-/// A belief that keeps every measurement and infers the cells from scratch after each update, eqs. 2.7 and 2.8 with cells
-/// for points. `Rule` says how, and what becomes of measurements when cells merge (see Batch and Committee):
+/// A belief that keeps every measurement and infers the cells from scratch after each update, eqs. 2.7 and 2.8 with
+/// cells for points. `Rule` says how, and what becomes of measurements when cells merge (see Batch and Committee):
 ///
 ///     CellPosterior infer(prior, prior_mean, history, cells, jitter) const;
 ///     void merge(history, tree, merge) const;
@@ -119,7 +134,8 @@ class Accumulated {
   [[nodiscard]] double mean(std::size_t i) const { return mean_[static_cast<Index>(i)]; }
   [[nodiscard]] double variance(std::size_t i) const { return variance_[static_cast<Index>(i)]; }
   /// Variances of weighted averages over leaves; only within an update, between `fuse` and `settle`.
-  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents, std::span<const double> weight) const {
+  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
+                                                     std::span<const double> weight) const {
     std::vector<double> out;
     for (const ParentCell& p : parents) out.push_back(average_variance(p.leaves, weight));
     return out;
@@ -138,8 +154,8 @@ class Accumulated {
   }
   [[nodiscard]] const MeasurementHistory& history() const { return history_; }
 
-  /// Adds measurements and infers all cells. Throws Error, changing nothing, if the measurements' covariance is not positive
-  /// definite to working precision.
+  /// Adds measurements and infers all cells. Throws Error, changing nothing, if the measurements' covariance is not
+  /// positive definite to working precision.
   void fuse(const NdTree& tree, const CellMeasurements& z) {
     MeasurementHistory history = history_;
     history.append(tree, z);
@@ -156,7 +172,8 @@ class Accumulated {
     } else {
       Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Index>(cells.size())), variance(mean.size());
       for (std::size_t g = 0; g < cells.size(); ++g) {
-        for (std::size_t i = m.groups[g].first; i < m.groups[g].last; ++i) mean[static_cast<Index>(g)] += m.weight[i] * this->mean(i);
+        for (std::size_t i = m.groups[g].first; i < m.groups[g].last; ++i)
+          mean[static_cast<Index>(g)] += m.weight[i] * this->mean(i);
         variance[static_cast<Index>(g)] = average_variance(m.groups[g], m.weight);
       }
       mean_ = std::move(mean);
@@ -197,7 +214,8 @@ class Accumulated {
       const std::vector<Index> h(z.cells.begin(), z.cells.end());
       const Eigen::LLT<Eigen::MatrixXd> llt(innovation(h, z));
       if (llt.info() != Eigen::Success)
-        throw Error("forecast", "the innovation covariance is not positive definite to working precision", "more noise");
+        throw Error("forecast", "the innovation covariance is not positive definite to working precision",
+                    "more noise");
       return llt.solve(Eigen::MatrixXd(m_(h, h))).trace();
     }
 
@@ -212,7 +230,9 @@ class Accumulated {
   };
 
   [[nodiscard]] std::size_t bytes() const {
-    return prior_.bytes() + history_.bytes() + static_cast<std::size_t>(2 * mean_.size() + posterior_.root.size()) * sizeof(double) + cells_.capacity() * sizeof(NdTree::Leaf);
+    return prior_.bytes() + history_.bytes() +
+           static_cast<std::size_t>(2 * mean_.size() + posterior_.root.size()) * sizeof(double) +
+           cells_.capacity() * sizeof(NdTree::Leaf);
   }
   void save(Sink& sink) const {
     history_.save(sink);

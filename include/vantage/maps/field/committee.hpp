@@ -19,15 +19,16 @@ namespace vantage {
 ///
 ///     C^-1 = -(M - 1) K^-1 + sum_i C_i^-1,    m = mu + C sum_i C_i^-1 (m_i - mu).
 ///
-/// None of these inverses is formed; over cells much smaller than the kernel's length, K is singular to working precision.
-/// With L L^T = K + jitter, A_i = L^-1 K_*i and F_i F_i^T = K_ii + R_i - A_i^T A_i, the matrix inversion lemma gives
+/// None of these inverses is formed; over cells much smaller than the kernel's length, K is singular to working
+/// precision. With L L^T = K + jitter, A_i = L^-1 K_*i and F_i F_i^T = K_ii + R_i - A_i^T A_i, the matrix inversion
+/// lemma gives
 ///
 ///     C = L (I + Z Z^T)^-1 L^T,    m = mu + L (I + Z Z^T)^-1 Z e,    Z_i = A_i F_i^-T,    e_i = F_i^-1 (y_i - mu),
 ///
-/// n^2 (2 l + 5 n / 3) flops. Where there are fewer measurements than cells, the same is cheaper by one regression whose
-/// measurements covary exactly within a batch, and across batches only through the cells, A_i^T A_j (Quinonero-Candela &
-/// Rasmussen, JMLR 6, 2005, section 6: transductive PITC). Exact where the measured cells are among the queried ones; what is
-/// lost is what pruned cells cannot carry from one batch to another.
+/// n^2 (2 l + 5 n / 3) flops. Where there are fewer measurements than cells, the same is cheaper by one regression
+/// whose measurements covary exactly within a batch, and across batches only through the cells, A_i^T A_j
+/// (Quinonero-Candela & Rasmussen, JMLR 6, 2005, section 6: transductive PITC). Exact where the measured cells are
+/// among the queried ones; what is lost is what pruned cells cannot carry from one batch to another.
 struct CommitteeRegression {
   static constexpr std::string_view name = "committee";
   static constexpr bool infers_after_merge = true;  // the committee meets again over the new cells
@@ -59,19 +60,24 @@ struct CommitteeRegression {
   }
   // a <- l^-1 a, in narrower tiles than dense::solve_lower: a batch is a few hundred columns.
   static void forward(const Eigen::MatrixXd& l, Eigen::MatrixXd& a) {
-    dense::for_tiles(a.cols(), [&](Eigen::Index j, Eigen::Index count) {
-      auto columns = a.middleCols(j, count);
-      l.triangularView<Eigen::Lower>().solveInPlace(columns);
-    }, 128);
+    dense::for_tiles(
+        a.cols(),
+        [&](Eigen::Index j, Eigen::Index count) {
+          auto columns = a.middleCols(j, count);
+          l.triangularView<Eigen::Lower>().solveInPlace(columns);
+        },
+        128);
   }
 
-  static CellPosterior by_measurements(const Eigen::MatrixXd& a, const NodePrior& prior, double prior_mean, const MeasurementHistory& h,
-                                       std::span<const NdTree::Leaf> cells, double jitter) {
+  static CellPosterior by_measurements(const Eigen::MatrixXd& a, const NodePrior& prior, double prior_mean,
+                                       const MeasurementHistory& h, std::span<const NdTree::Leaf> cells,
+                                       double jitter) {
     Eigen::MatrixXd s = prior.covariance(h.cell);
     for_batches(h, [&](Eigen::Index b, Eigen::Index size) {  // the rows below this batch's own square
       const Eigen::Index first = b + size;
       dense::for_tiles(s.rows() - first, [&](Eigen::Index i, Eigen::Index count) {
-        s.block(first + i, b, count, size).noalias() = a.middleCols(first + i, count).transpose() * a.middleCols(b, size);
+        s.block(first + i, b, count, size).noalias() =
+            a.middleCols(first + i, count).transpose() * a.middleCols(b, size);
       });
     });
     return ExactRegression::regress(std::move(s), prior, prior_mean, h, cells, jitter);
@@ -83,7 +89,8 @@ struct CommitteeRegression {
     Eigen::VectorXd e = h.value.array() - prior_mean;
     for_batches(h, [&](Eigen::Index b, Eigen::Index size) {
       const auto ai = a.middleCols(b, size);
-      Eigen::MatrixXd f = prior.covariance(std::span(h.cell).subspan(static_cast<std::size_t>(b), static_cast<std::size_t>(size)));
+      Eigen::MatrixXd f =
+          prior.covariance(std::span(h.cell).subspan(static_cast<std::size_t>(b), static_cast<std::size_t>(size)));
       f.diagonal().array() += h.noise_variance.segment(b, size).array() + jitter;
       dense::add_gram<double>(f, ai, -1.0);
       dense::cholesky<double>(f, "Committee");

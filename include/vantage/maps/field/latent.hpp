@@ -17,6 +17,7 @@
 #include <vantage/core/dense.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
+#include <vantage/maps/field/full.hpp>
 #include <vantage/maps/field/nd_tree.hpp>
 #include <vantage/maps/field/prior.hpp>
 
@@ -24,9 +25,9 @@ namespace vantage {
 
 namespace detail {
 
-/// The leading part of a separable prior as Phi Phi^T (K- is a Kronecker product, so that its eigenvectors are products).
-/// A cell's row of Phi is itself a product, phi[(a, b)] = fx[a] fy[b], at every level of the tree: a merge averages rows.
-/// Modes (a, b) with b < count[a] are kept, a staircase, and stand at offset[a] + b.
+/// The leading part of a separable prior as Phi Phi^T (K- is a Kronecker product, so that its eigenvectors are
+/// products). A cell's row of Phi is itself a product, phi[(a, b)] = fx[a] fy[b], at every level of the tree: a merge
+/// averages rows. Modes (a, b) with b < count[a] are kept, a staircase, and stand at offset[a] + b.
 struct SeparableBasis {
   std::vector<Eigen::MatrixXd> fx, fy;  ///< per level of the tree: cells of the level x modes
   std::vector<Eigen::Index> count, offset;
@@ -50,7 +51,8 @@ struct SeparableBasis {
     }
     const auto modes = [&](const auto& eigen, const Eigen::VectorXd& value, Eigen::Index n) {
       std::vector<Eigen::MatrixXd> f(static_cast<std::size_t>(tree.config().depth) + 1);
-      f.back() = eigen.eigenvectors().rowwise().reverse().leftCols(n) * value.head(n).cwiseMax(0).cwiseSqrt().asDiagonal();
+      f.back() =
+          eigen.eigenvectors().rowwise().reverse().leftCols(n) * value.head(n).cwiseMax(0).cwiseSqrt().asDiagonal();
       for (std::size_t level = f.size() - 1; level-- > 0;) {  // a parent is the average of its children
         const Eigen::Index branches = tree.config().branching, cells = f[level + 1].rows() / branches;
         f[level].setZero(cells, n);
@@ -99,7 +101,8 @@ struct CellRows {
     for (auto& [key, member] : groups) {
       y.col(static_cast<Eigen::Index>(row.size())) = basis.y(cell(member.front())).transpose();
       Eigen::MatrixXd x(basis.modes(), static_cast<Eigen::Index>(member.size()));
-      for (std::size_t k = 0; k < member.size(); ++k) x.col(static_cast<Eigen::Index>(k)) = basis.x(cell(member[k])).transpose();
+      for (std::size_t k = 0; k < member.size(); ++k)
+        x.col(static_cast<Eigen::Index>(k)) = basis.x(cell(member[k])).transpose();
       row.push_back({std::move(member), std::move(x)});
     }
   }
@@ -115,13 +118,13 @@ struct CellRows {
 /// noise variance that the measurements of one cell add up to, a posterior variance v is too small by at most
 /// 2 e (1 + v / r_min): what was left out, under the gain of the filter that does not know of it.
 ///
-/// One update costs r^3 flops, and r^2 for each row of cells held; memory 16 r^2 bytes, and 16 bytes a cell. Thread-safe
-/// const members.
+/// One update costs r^3 flops, and r^2 for each row of cells held; memory 16 r^2 bytes, and 16 bytes a cell.
+/// Thread-safe const members.
 class Latent {
  public:
   static constexpr std::string_view name = "latent";
   struct Config {
-    double variance_error = 1e-8;       ///< allowed in any posterior variance, > 0, in the field's unit squared
+    double variance_error = 1e-8;        ///< allowed in any posterior variance, > 0, in the field's unit squared
     double least_noise_variance = 0.01;  ///< r_min above, > 0
   };
 
@@ -142,7 +145,8 @@ class Latent {
     basis_.row(tree[j], b);
     return a.dot(covariance_ * b);
   }
-  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents, std::span<const double>) const {
+  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
+                                                     std::span<const double>) const {
     std::vector<double> out(parents.size());
     variances(detail::CellRows(basis_, parents.size(), [&](std::size_t k) { return parents[k].cell; }), out.data());
     return out;
@@ -196,9 +200,11 @@ class Latent {
     Eigen::MatrixXd evidence;
     source.get(next.information);
     source.get(evidence);
-    if (next.information.rows() != basis_.rank || next.information.cols() != basis_.rank || evidence.rows() != basis_.rank ||
-        evidence.cols() != 1 || !next.information.allFinite() || !evidence.allFinite())
-      throw Error(source.where(), concat("a latent state of rank ", next.information.rows()), concat(basis_.rank, " finite coordinates"));
+    if (next.information.rows() != basis_.rank || next.information.cols() != basis_.rank ||
+        evidence.rows() != basis_.rank || evidence.cols() != 1 || !next.information.allFinite() ||
+        !evidence.allFinite())
+      throw Error(source.where(), concat("a latent state of rank ", next.information.rows()),
+                  concat(basis_.rank, " finite coordinates"));
     next.evidence = evidence;
     state_ = std::move(next);
     refresh(tree);
@@ -214,10 +220,11 @@ class Latent {
     explicit State(const detail::SeparableBasis& basis)
         : information(Eigen::MatrixXd::Identity(basis.rank, basis.rank)), evidence(Eigen::VectorXd::Zero(basis.rank)) {}
 
-    // J += sum_i phi_i phi_i^T / r_i. A row of cells adds X (x) fy fy^T with X = sum fx fx^T / r, so that a block (a, a')
-    // of J gains FY diag(X[a, a'] of each row) FY^T: r^2 flops a row of cells, not a cell.
+    // J += sum_i phi_i phi_i^T / r_i. A row of cells adds X (x) fy fy^T with X = sum fx fx^T / r, so that a block (a,
+    // a') of J gains FY diag(X[a, a'] of each row) FY^T: r^2 flops a row of cells, not a cell.
     template <class Innovation>
-    void add(const detail::SeparableBasis& basis, const NdTree& tree, const CellMeasurements& z, const Innovation& innovation) {
+    void add(const detail::SeparableBasis& basis, const NdTree& tree, const CellMeasurements& z,
+             const Innovation& innovation) {
       const detail::CellRows cells(basis, z.cells.size(), [&](std::size_t k) { return tree[z.cells[k]]; });
       const Index m = basis.modes(), rows = cells.y.cols();
       Eigen::MatrixXd gram(m * m, rows), weighted(m, rows);
@@ -238,16 +245,17 @@ class Latent {
         for (std::size_t b = 0; b <= a; ++b) {
           const Index nb = basis.count[b];
           information.block(basis.offset[a], basis.offset[b], na, nb).noalias() +=
-              cells.y.topRows(na) * gram.row(ia + m * static_cast<Index>(b)).asDiagonal() * cells.y.topRows(nb).transpose();
+              cells.y.topRows(na) * gram.row(ia + m * static_cast<Index>(b)).asDiagonal() *
+              cells.y.topRows(nb).transpose();
         }
       });
     }
   };
 
  public:
-  /// Forward simulation for eq. 3.13 in latent coordinates, with Q = sum of phi phi^T over the targets: the reduction is
-  /// tr(Q C) - tr(Q (J + H^T R^-1 H)^-1), or, for fewer cells than coordinates, tr(S^-1 H C Q C H^T) with
-  /// S = H C H^T + R. No cost depends on the number of cells held.
+  /// Forward simulation for eq. 3.13 in latent coordinates, with Q = sum of phi phi^T over the targets: the reduction
+  /// is tr(Q C) - tr(Q (J + H^T R^-1 H)^-1), or, for fewer cells than coordinates, tr(S^-1 H C Q C H^T) with S = H C
+  /// H^T + R. No cost depends on the number of cells held.
   class Forecaster {
    public:
     Forecaster(const Latent& belief, const NdTree& tree, std::span<const std::uint8_t> target)
@@ -340,17 +348,21 @@ class Latent {
     parallel_for(static_cast<std::size_t>(m), [&](std::size_t order) {
       const std::size_t b = static_cast<std::size_t>(m) - 1 - order;
       const Index above = basis_.offset[b] + basis_.count[b];
-      const Eigen::MatrixXd half = covariance_.block(0, basis_.offset[b], above, basis_.count[b]) * cells.y.topRows(basis_.count[b]);
+      const Eigen::MatrixXd half =
+          covariance_.block(0, basis_.offset[b], above, basis_.count[b]) * cells.y.topRows(basis_.count[b]);
       contracted[b].resize(m, rows);
       for (std::size_t a = 0; a <= b; ++a)
-        contracted[b].row(static_cast<Index>(a)) =
-            half.middleRows(basis_.offset[a], basis_.count[a]).cwiseProduct(cells.y.topRows(basis_.count[a])).colwise().sum();
+        contracted[b].row(static_cast<Index>(a)) = half.middleRows(basis_.offset[a], basis_.count[a])
+                                                       .cwiseProduct(cells.y.topRows(basis_.count[a]))
+                                                       .colwise()
+                                                       .sum();
     });
     parallel_for(cells.row.size(), [&](std::size_t g) {
       const detail::CellRow& row = cells.row[g];
       Eigen::MatrixXd c(m, m);
       for (Index b = 0; b < m; ++b)
-        for (Index a = 0; a <= b; ++a) c(a, b) = c(b, a) = contracted[static_cast<std::size_t>(b)](a, static_cast<Index>(g));
+        for (Index a = 0; a <= b; ++a)
+          c(a, b) = c(b, a) = contracted[static_cast<std::size_t>(b)](a, static_cast<Index>(g));
       const Eigen::MatrixXd cx = c * row.x;
       for (std::size_t k = 0; k < row.member.size(); ++k)
         out[row.member[k]] = row.x.col(static_cast<Index>(k)).dot(cx.col(static_cast<Index>(k)));

@@ -12,8 +12,8 @@
 // Kernels between points in any dimension, on blocks, in vectorised form.
 namespace vantage {
 
-/// In place: squared distances over squared lengths, q = (d / l)^2, become correlations c(d); where `slope` is asked for, it
-/// becomes d log c / d log l. To use a kernel of your own for regression, overload this for it.
+/// In place: squared distances over squared lengths, q = (d / l)^2, become correlations c(d); where `slope` is asked
+/// for, it becomes d log c / d log l. To use a kernel of your own for regression, overload this for it.
 inline void correlate(const SquaredExponential&, Eigen::Ref<Eigen::ArrayXXd> q, Eigen::ArrayXXd* slope = nullptr) {
   if (slope) *slope = q;
   q = (-0.5 * q).exp();
@@ -47,8 +47,8 @@ using Points = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic>;
 /// The kernel of the Euclidean distance, k(x, x') = sigma^2 c(|x - x'|): what is commonly meant by a Matern.
 struct Isotropic {
   static constexpr std::string_view name = "isotropic";
-  /// c(i, j) of rows [a, a + c.rows()) of x and [b, b + c.cols()) of y; differences, not products, so that near points keep
-  /// their digits. `slope`: d log c / d log l.
+  /// c(i, j) of rows [a, a + c.rows()) of x and [b, b + c.cols()) of y; differences, not products, so that near points
+  /// keep their digits. `slope`: d log c / d log l.
   template <PointKernel K>
   static void correlations(const K& kernel, const Points& x, Eigen::Index a, const Points& y, Eigen::Index b,
                            Eigen::Ref<Eigen::ArrayXXd> c, Eigen::ArrayXXd* slope = nullptr) {
@@ -56,14 +56,15 @@ struct Isotropic {
     for (Eigen::Index j = 0; j < c.cols(); ++j) {
       auto column = c.col(j);
       column = ((x.col(0).segment(a, c.rows()) - y(b + j, 0)) * scale).square();
-      for (Eigen::Index k = 1; k < x.cols(); ++k) column += ((x.col(k).segment(a, c.rows()) - y(b + j, k)) * scale).square();
+      for (Eigen::Index k = 1; k < x.cols(); ++k)
+        column += ((x.col(k).segment(a, c.rows()) - y(b + j, k)) * scale).square();
     }
     correlate(kernel, c, slope);
   }
 };
 
-/// The product of one-dimensional kernels over the axes, as the maps' cells use it. The same as Isotropic for the squared
-/// exponential, and only for it.
+/// The product of one-dimensional kernels over the axes, as the maps' cells use it. The same as Isotropic for the
+/// squared exponential, and only for it.
 struct Product {
   static constexpr std::string_view name = "product";
   template <PointKernel K>

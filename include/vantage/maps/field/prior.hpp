@@ -10,12 +10,13 @@
 
 namespace vantage {
 
-/// The prior over the cells of a full-depth tree (eq. 3.5). A separable kernel over a regular grid is a Kronecker product,
-/// K-(i, j) = variance Kx(ix_i, ix_j) Ky(iy_i, iy_j): two small Toeplitz matrices say it all.
+/// The prior over the cells of a full-depth tree (eq. 3.5). A separable kernel over a regular grid is a Kronecker
+/// product, K-(i, j) = variance Kx(ix_i, ix_j) Ky(iy_i, iy_j): two small Toeplitz matrices say it all.
 struct Prior {
   double mean = 0, variance = 1;
   Eigen::MatrixXd kx, ky;  ///< resolution x resolution
-  std::function<double(const Interval&, const Interval&)> correlation = {};  ///< one axis' factor, for cells of any level
+  std::function<double(const Interval&, const Interval&)> correlation =
+      {};  ///< one axis' factor, for cells of any level
 
   template <class Cells, SeparableKernel K>
   static Prior make(const NdTree& tree, double mean, const K& kernel, Cells = {}) {

@@ -20,8 +20,8 @@ struct Prediction {
   Eigen::VectorXd mean, variance;
 };
 
-/// Gaussian-process regression over points in any dimension, eqs. 2.5 to 2.8: a constant mean, independent noise of equal
-/// variance. `Form` says how the one-dimensional kernel becomes one of points: Isotropic (default) or Product.
+/// Gaussian-process regression over points in any dimension, eqs. 2.5 to 2.8: a constant mean, independent noise of
+/// equal variance. `Form` says how the one-dimensional kernel becomes one of points: Isotropic (default) or Product.
 ///
 /// The constructor fits: n^3 / 3 flops and n^2 numbers. Const members are thread-safe.
 ///
@@ -36,23 +36,28 @@ class GpRegression {
     double mean = 0;               ///< constant mu, finite
   };
 
-  /// `points` is n x D [m], a row a point; `values` holds n. Throws Error on sizes that disagree, values that are not finite
-  /// or a covariance that is not positive definite to working precision.
+  /// `points` is n x D [m], a row a point; `values` holds n. Throws Error on sizes that disagree, values that are not
+  /// finite or a covariance that is not positive definite to working precision.
   GpRegression(const Config& config, Points points, Eigen::VectorXd values)
       : config_(validated(config)), points_(std::move(points)), values_(std::move(values)) {
     constexpr std::string_view where = "GpRegression";
     const Eigen::Index n = points_.rows();
-    if (n == 0 || points_.cols() == 0) throw Error(where, concat(n, " points of ", points_.cols(), " dimensions"), "at least one of each");
+    if (n == 0 || points_.cols() == 0)
+      throw Error(where, concat(n, " points of ", points_.cols(), " dimensions"), "at least one of each");
     if (values_.size() != n) throw Error(where, concat(values_.size(), " values for ", n, " points"), "one each");
-    if (!points_.allFinite() || !values_.allFinite()) throw Error(where, "a point or a value is not finite", "finite numbers");
+    if (!points_.allFinite() || !values_.allFinite())
+      throw Error(where, "a point or a value is not finite", "finite numbers");
     factor_ = LargeMatrix<double>(n, n);
     auto k = factor_.map();
-    dense::for_lower_tiles(n, [&](Eigen::Index i, Eigen::Index ni, Eigen::Index j, Eigen::Index nj) {
-      thread_local Eigen::ArrayXXd c;
-      c.resize(ni, nj);
-      Form::correlations(config_.kernel, points_, i, points_, j, c);
-      k.block(i, j, ni, nj) = config_.kernel.variance * c;
-    }, 128);
+    dense::for_lower_tiles(
+        n,
+        [&](Eigen::Index i, Eigen::Index ni, Eigen::Index j, Eigen::Index nj) {
+          thread_local Eigen::ArrayXXd c;
+          c.resize(ni, nj);
+          Form::correlations(config_.kernel, points_, i, points_, j, c);
+          k.block(i, j, ni, nj) = config_.kernel.variance * c;
+        },
+        128);
     k.diagonal().array() += config_.noise_variance;
     dense::cholesky<double>(k, where);
     alpha_ = values_.array() - config_.mean;
@@ -61,21 +66,25 @@ class GpRegression {
     lower().adjoint().solveInPlace(alpha_);
   }
 
-  /// Eqs. 2.7 and 2.8 at m query points (m x D): m n^2 flops. Queries run in blocks, concurrently, so that no n x m matrix is
-  /// held. Throws Error on a wrong dimension or queries that are not finite.
+  /// Eqs. 2.7 and 2.8 at m query points (m x D): m n^2 flops. Queries run in blocks, concurrently, so that no n x m
+  /// matrix is held. Throws Error on a wrong dimension or queries that are not finite.
   [[nodiscard]] Prediction predict(const Points& queries) const {
     check(queries);
     Prediction p;
     p.mean.resize(queries.rows());
     p.variance.resize(queries.rows());
     constexpr Eigen::Index block = 256;
-    dense::for_tiles(queries.rows(), [&](Eigen::Index begin, Eigen::Index count) {
-      Eigen::MatrixXd k = covariance(queries, begin, count);
-      p.mean.segment(begin, count).noalias() = k.transpose() * alpha_;
-      p.mean.segment(begin, count).array() += config_.mean;
-      forward(k);
-      p.variance.segment(begin, count) = (config_.kernel.variance - k.colwise().squaredNorm().array()).max(0.0).transpose();
-    }, block);
+    dense::for_tiles(
+        queries.rows(),
+        [&](Eigen::Index begin, Eigen::Index count) {
+          Eigen::MatrixXd k = covariance(queries, begin, count);
+          p.mean.segment(begin, count).noalias() = k.transpose() * alpha_;
+          p.mean.segment(begin, count).array() += config_.mean;
+          forward(k);
+          p.variance.segment(begin, count) =
+              (config_.kernel.variance - k.colwise().squaredNorm().array()).max(0.0).transpose();
+        },
+        block);
     return p;
   }
   /// Eq. 2.7 alone: m n flops.
@@ -95,8 +104,8 @@ class GpRegression {
     return -half_quadratic_ - factor_.map().diagonal().array().log().sum() - 0.5 * n * std::log(2 * std::numbers::pi);
   }
 
-  /// For each value, what the others predict for it (noise included in the variance), without n fits: Rasmussen & Williams
-  /// 2006, eq. 5.12. 2 n^3 / 3 flops.
+  /// For each value, what the others predict for it (noise included in the variance), without n fits: Rasmussen &
+  /// Williams 2006, eq. 5.12. 2 n^3 / 3 flops.
   [[nodiscard]] Prediction leave_one_out() const {
     Eigen::MatrixXd inverse;
     dense::inverse_from_cholesky<double>(factor_.map(), inverse);
