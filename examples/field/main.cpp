@@ -47,7 +47,7 @@ class Mission {
   void run() const {
     const std::string& m = o_.method;
     if (m == "ours") measure<Ours<Preset>>();
-    else if (m == "latent") measure<Ours<Preset, Latent>>();
+    else if (m == "latent") measure<Ours<Preset, Latent<>>>();
     else if (m == "fr_gpf") measure<FrGpf<Preset>>();
     else if (m == "fr_idp") measure<FrIdp<Preset>>();
     else if (m == "ar_idp") measure<ArIdp<Preset>>();

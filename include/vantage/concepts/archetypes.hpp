@@ -54,7 +54,9 @@ class Map {
 template <class Base = Map>
 class Persistent : public Base {
  public:
-  void save(Sink& sink) const { for (const std::uint64_t n : this->looks_) sink.put(n); }
+  void save(Sink& sink) const {
+    for (const std::uint64_t n : this->looks_) sink.put(n);
+  }
   void load(Source& source) {
     const auto left = source.get<std::uint64_t>(), right = source.get<std::uint64_t>();
     this->looks_ = {left, right};
@@ -66,7 +68,8 @@ template <class Base = Map>
 class Uncertain : public Base {
  public:
   void render(const View& view, const Camera& camera, Rendering<channel::Uncertainty>& out) const {
-    out.uncertainty.setConstant(camera.height, camera.width, static_cast<float>(this->doubt(this->side(view.position()))));
+    out.uncertainty.setConstant(camera.height, camera.width,
+                                static_cast<float>(this->doubt(this->side(view.position()))));
   }
 };
 
@@ -78,7 +81,8 @@ class Ranging : public Base {
   void render(const View& view, const Camera& camera, Rendering<channel::Depth>& out) const {
     const double depth = -view.position().z() / view.forward().z();
     const bool hit = view.forward().z() != 0 && depth > 0;
-    out.depth.setConstant(camera.height, camera.width, hit ? static_cast<float>(depth) : std::numeric_limits<float>::quiet_NaN());
+    out.depth.setConstant(camera.height, camera.width,
+                          hit ? static_cast<float>(depth) : std::numeric_limits<float>::quiet_NaN());
   }
 };
 
@@ -130,12 +134,14 @@ class Field : public Base {
  public:
   [[nodiscard]] std::size_t size() const { return 2; }
   [[nodiscard]] Box2 cell(std::size_t i) const {
-    return i == 0 ? Box2(Eigen::Vector2d(-1, -1), Eigen::Vector2d(0, 1)) : Box2(Eigen::Vector2d(0, -1), Eigen::Vector2d(1, 1));
+    return i == 0 ? Box2(Eigen::Vector2d(-1, -1), Eigen::Vector2d(0, 1))
+                  : Box2(Eigen::Vector2d(0, -1), Eigen::Vector2d(1, 1));
   }
   [[nodiscard]] double mean(std::size_t) const { return 0; }
   [[nodiscard]] double variance(std::size_t i) const { return this->doubt(i); }
   [[nodiscard]] std::size_t cell_at(const Eigen::Vector2d& p) const {
-    if (!(p.cwiseAbs().maxCoeff() <= 1)) throw Error("archetype::Field::cell_at", "a point outside", "[-1, 1] x [-1, 1]");
+    if (!(p.cwiseAbs().maxCoeff() <= 1))
+      throw Error("archetype::Field::cell_at", "a point outside", "[-1, 1] x [-1, 1]");
     return this->side({p.x(), p.y(), 0});
   }
 };
@@ -163,13 +169,17 @@ using FullMap = Persistent<Refinable<Fisher<Field<Frontiers<Occupied<Covering<Fo
 /// ViewUtility: psi(M, v). Here: views from the right are better, the higher the better.
 struct ViewUtility {
   template <vantage::Map M>
-  double operator()(const M&, const View& v) const { return (v.position().x() < 0 ? 0.0 : 1.0) + std::abs(v.position().z()); }
+  double operator()(const M&, const View& v) const {
+    return (v.position().x() < 0 ? 0.0 : 1.0) + std::abs(v.position().z());
+  }
 };
 
 /// HistoryUtility: with what happened so far. Here: far from where the robot is.
 struct HistoryUtility {
   template <vantage::Map M>
-  double operator()(const M&, const Situation& q, const View& v) const { return distance_m(q.here, v); }
+  double operator()(const M&, const Situation& q, const View& v) const {
+    return distance_m(q.here, v);
+  }
 };
 
 /// PreparedUtility: shares work among a step's candidates, and scores sequences. Here: far from the views' middle.
@@ -192,7 +202,8 @@ struct Sampler {
   template <vantage::Map M>
   Candidates sample(const M&, const Situation&, const Score&, Rng& rng) const {
     Candidates c;
-    for (const double x : {-1.0, 1.0}) c.views.push_back(nadir(x * rng.uniform(0.1, 1), rng.uniform(-1, 1), rng.uniform(0.5, 1)));
+    for (const double x : {-1.0, 1.0})
+      c.views.push_back(nadir(x * rng.uniform(0.1, 1), rng.uniform(-1, 1), rng.uniform(0.5, 1)));
     return c;
   }
 };
@@ -245,7 +256,9 @@ struct Clock {
 /// StopRuleFor every map. One that knows how much time is left also has `double remaining_s(const Situation&) const`.
 struct StopRule {
   template <vantage::Map M>
-  bool operator()(const M&, const Situation& q) const { return q.step >= 10; }
+  bool operator()(const M&, const Situation& q) const {
+    return q.step >= 10;
+  }
 };
 
 }  // namespace vantage::archetype

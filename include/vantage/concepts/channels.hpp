@@ -7,16 +7,33 @@
 
 namespace vantage {
 
-/// What a map can draw. Channels are types, so that one march or one raster pass computes just those that were asked for.
+/// What a map can draw. Channels are types, so that one march or one raster pass computes just those that were asked
+/// for.
 namespace channel {
-struct Colour { Image<float> r, g, b; };                         ///< [0, 1]
-struct Depth { Image<float> depth; };                            ///< camera z [m], NaN where nothing is hit
-struct Opacity { Image<float> opacity; };                        ///< [0, 1]
-struct Normal { Image<float> x, y, z; };                         ///< world frame, unit length
-struct Confidence { Image<float> confidence; };                  ///< >= 0
-struct Entropy { Image<float> entropy; };                        ///< [nats]
-struct Semantics { std::vector<Image<float>> probability; };     ///< one image a class
-struct Uncertainty { Image<float> uncertainty; };                ///< finite, >= 0: the channel that every map has
+struct Colour {
+  Image<float> r, g, b;
+};  ///< [0, 1]
+struct Depth {
+  Image<float> depth;
+};  ///< camera z [m], NaN where nothing is hit
+struct Opacity {
+  Image<float> opacity;
+};  ///< [0, 1]
+struct Normal {
+  Image<float> x, y, z;
+};  ///< world frame, unit length
+struct Confidence {
+  Image<float> confidence;
+};  ///< >= 0
+struct Entropy {
+  Image<float> entropy;
+};  ///< [nats]
+struct Semantics {
+  std::vector<Image<float>> probability;
+};  ///< one image a class
+struct Uncertainty {
+  Image<float> uncertainty;
+};  ///< finite, >= 0: the channel that every map has
 }  // namespace channel
 
 /// The channels asked for, each an image of the camera's size after `render`.

@@ -19,6 +19,8 @@ struct Field;
 struct Coverage;
 struct Occupancy;
 struct Fisher;
+template <class Kind>
+struct Regions;  ///< frontier or low_confidence
 }  // namespace need
 
 /// A policy's statement of what it asks of a map: `using MapNeeds = Needs<need::Uncertainty>;`
@@ -31,7 +33,7 @@ struct StatedNeeds {
   using type = Needs<>;
 };
 template <class Policy>
-  requires requires { typename Policy::MapNeeds; }
+requires requires { typename Policy::MapNeeds; }
 struct StatedNeeds<Policy> {
   using type = typename Policy::MapNeeds;
 };
@@ -52,19 +54,32 @@ using NeedsOf = typename JoinedNeeds<typename StatedNeeds<Policies>::type...>::t
 /// Whether a map offers what one `need` stands for; specialise it for needs of your own.
 template <class M, class Need>
 inline constexpr bool offers = false;
-template <class M> inline constexpr bool offers<M, need::Uncertainty> = UncertainMap<M>;
-template <class M> inline constexpr bool offers<M, need::Depth> = DepthMap<M>;
-template <class M> inline constexpr bool offers<M, need::Forecast> = ForecastMap<M>;
-template <class M> inline constexpr bool offers<M, need::Field> = FieldMap<M>;
-template <class M> inline constexpr bool offers<M, need::Coverage> = CoverageMap<M>;
-template <class M> inline constexpr bool offers<M, need::Occupancy> = OccupancyMap<M>;
-template <class M> inline constexpr bool offers<M, need::Fisher> = FisherMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Uncertainty> = UncertainMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Depth> = DepthMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Forecast> = ForecastMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Field> = FieldMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Coverage> = CoverageMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Occupancy> = OccupancyMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Fisher> = FisherMap<M>;
+template <class M, class Kind>
+inline constexpr bool offers<M, need::Regions<Kind>> = RegionMap<M, Kind>;
 
 /// The Map concept piece by piece, so that a refusal says which piece is missing.
 template <class M>
-concept HasMeasurement = requires { typename M::Measurement; };
+concept HasMeasurement = requires {
+  typename M::Measurement;
+};
 template <class M>
-concept HasIntegrate = requires(M m, const typename M::Measurement& z, Rng& rng) { m.integrate(z, rng); };
+concept HasIntegrate = requires(M m, const typename M::Measurement& z, Rng& rng) {
+  m.integrate(z, rng);
+};
 template <class M>
 concept HasBounds = requires(const M m) {
   { m.bounds() } -> std::convertible_to<Box3>;
@@ -74,10 +89,14 @@ concept HasBounds = requires(const M m) {
 template <class M>
 struct ExplainMap {
   static consteval bool check() {
-    static_assert(std::movable<M>, "vantage: this map cannot be moved into the loop: give it a move constructor and a move assignment");
-    static_assert(HasMeasurement<M>, "vantage: this map does not say what it learns from: give it `using Measurement = ...`, the type its world observes");
+    static_assert(std::movable<M>,
+                  "vantage: this map cannot be moved into the loop: give it a move constructor and a move assignment");
+    static_assert(HasMeasurement<M>,
+                  "vantage: this map does not say what it learns from: give it `using Measurement = ...`, the type its "
+                  "world observes");
     if constexpr (HasMeasurement<M>)
-      static_assert(HasIntegrate<M>, "vantage: this map does not learn: give it `void integrate(const Measurement&, Rng&)`");
+      static_assert(HasIntegrate<M>,
+                    "vantage: this map does not learn: give it `void integrate(const Measurement&, Rng&)`");
     static_assert(HasBounds<M>, "vantage: this map does not say where it is: give it `Box3 bounds() const`");
     return Map<M>;
   }
@@ -89,29 +108,56 @@ struct Explain {
   template <class N>
   static consteval bool has() {
     if constexpr (std::is_same_v<N, need::Uncertainty>)
-      static_assert(offers<M, N>, "vantage: this policy needs an UncertainMap: give the map `void render(const View&, const Camera&, Rendering<channel::Uncertainty>&) const`");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs an UncertainMap: give the map `void render(const View&, const Camera&, "
+                    "Rendering<channel::Uncertainty>&) const`");
     else if constexpr (std::is_same_v<N, need::Depth>)
-      static_assert(offers<M, N>, "vantage: this policy needs a DepthMap: give the map `void render(const View&, const Camera&, Rendering<channel::Depth>&) const`");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs a DepthMap: give the map `void render(const View&, const Camera&, "
+                    "Rendering<channel::Depth>&) const`");
     else if constexpr (std::is_same_v<N, need::Forecast>)
-      static_assert(offers<M, N>, "vantage: this policy needs a ForecastMap: give the map `void forecast(Views given, Views views, std::span<double> reduction) const`, or choose a utility that does not forecast, such as MeanUncertainty");
+      static_assert(
+          offers<M, N>,
+          "vantage: this policy needs a ForecastMap: give the map `void forecast(Views given, Views views, "
+          "std::span<double> reduction) const`, or choose a utility that does not forecast, such as MeanUncertainty");
     else if constexpr (std::is_same_v<N, need::Field>)
-      static_assert(offers<M, N>, "vantage: this policy needs a FieldMap: give the map size(), cell(i), mean(i), variance(i) and cell_at(point), or use an IntegralGp");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs a FieldMap: give the map size(), cell(i), mean(i), variance(i) and "
+                    "cell_at(point), or use an IntegralGp");
     else if constexpr (std::is_same_v<N, need::Coverage>)
-      static_assert(offers<M, N>, "vantage: this policy needs a CoverageMap: give the map `double coverage() const`, or stop by MissionTime or Measurements");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs a CoverageMap: give the map `double coverage() const`, or stop by "
+                    "MissionTime or Measurements");
     else if constexpr (std::is_same_v<N, need::Occupancy>)
-      static_assert(offers<M, N>, "vantage: this policy needs an OccupancyMap: give the map `Space at(const Eigen::Vector3d&) const`, or pair it with a VoxelMap");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs an OccupancyMap: give the map `Space at(const Eigen::Vector3d&) "
+                    "const`, or pair it with a VoxelMap");
     else if constexpr (std::is_same_v<N, need::Fisher>)
-      static_assert(offers<M, N>, "vantage: this policy needs a FisherMap: give the map parameters() and `void fisher(const View&, const Camera&, std::span<double>) const`");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs a FisherMap: give the map parameters() and `void fisher(const View&, "
+                    "const Camera&, std::span<double>) const`");
+    else if constexpr (std::is_same_v<N, need::Regions<frontier>> || std::is_same_v<N, need::Regions<low_confidence>>)
+      static_assert(
+          offers<M, N>,
+          "vantage: this policy needs a RegionMap: give the map `std::vector<Region> regions(Kind) const` for this "
+          "kind (frontier or low_confidence) and `Space at(const Eigen::Vector3d&) const`, or pair it with a VoxelMap");
     else
-      static_assert(offers<M, N>, "vantage: this policy needs what the map does not offer: specialise vantage::offers<Map, Need> where it does");
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs what the map does not offer: specialise vantage::offers<Map, Need> "
+                    "where it does");
     return offers<M, N>;
   }
   template <class... Ns>
-  static consteval bool all(std::type_identity<Needs<Ns...>>) { return (has<Ns>() && ... && true); }
+  static consteval bool all(std::type_identity<Needs<Ns...>>) {
+    return (has<Ns>() && ... && true);
+  }
   /// A selector that plans with a router names it: `using RouterType = ...`.
   static consteval bool routes() {
     if constexpr (requires { typename Policy::RouterType; }) {
-      static_assert(RouterFor<typename Policy::RouterType, M>, "vantage: RouterType finds no way on this map: give the router `std::vector<double> lengths_m(const MapT&, const View& from, Views goals) const` and `std::vector<View> path(const MapT&, const View& from, const View& goal) const`, or take StraightLine");
+      static_assert(RouterFor<typename Policy::RouterType, M>,
+                    "vantage: RouterType finds no way on this map: give the router `std::vector<double> "
+                    "lengths_m(const MapT&, const View& from, Views goals) const` and `std::vector<View> path(const "
+                    "MapT&, const View& from, const View& goal) const`, or take StraightLine");
       return RouterFor<typename Policy::RouterType, M>;
     }
     return true;
@@ -123,12 +169,21 @@ struct Explain {
 template <class M, class U, class Sa, class Se>
 struct ExplainLoop {
   static consteval bool check() {
-    if constexpr (!Map<M>) return ExplainMap<M>::check();
-    else if constexpr (!(Explain<M, U>::check() && Explain<M, Sa>::check() && Explain<M, Se>::check())) return false;
+    if constexpr (!Map<M>)
+      return ExplainMap<M>::check();
+    else if constexpr (!(Explain<M, U>::check() && Explain<M, Sa>::check() && Explain<M, Se>::check()))
+      return false;
     else {
-      static_assert(UtilityFor<U, M>, "vantage: UtilityT scores no view of this map: give it `double operator()(const MapT&, const View&) const`, the same with `const Situation&` in between, or `auto prepare(const MapT&, const Situation&, Rng) const`");
-      static_assert(SamplerFor<Sa, M>, "vantage: SamplerT proposes no views: give it `Candidates sample(const MapT&, const Situation&, const Score&, Rng&)`");
-      static_assert(SelectorFor<Se, M>, "vantage: SelectorT decides nothing: give it `std::optional<Decision> select(const MapT&, const Situation&, const Candidates&, const Score&, Rng&)`");
+      static_assert(
+          UtilityFor<U, M>,
+          "vantage: UtilityT scores no view of this map: give it `double operator()(const MapT&, const View&) const`, "
+          "the same with `const Situation&` in between, or `auto prepare(const MapT&, const Situation&, Rng) const`");
+      static_assert(SamplerFor<Sa, M>,
+                    "vantage: SamplerT proposes no views: give it `Candidates sample(const MapT&, const Situation&, "
+                    "const Score&, Rng&)`");
+      static_assert(SelectorFor<Se, M>,
+                    "vantage: SelectorT decides nothing: give it `std::optional<Decision> select(const MapT&, const "
+                    "Situation&, const Candidates&, const Score&, Rng&)`");
       return UtilityFor<U, M> && SamplerFor<Sa, M> && SelectorFor<Se, M>;
     }
   }
@@ -138,10 +193,16 @@ struct ExplainLoop {
 template <class M, class World, class Stop, class Clock>
 struct ExplainRun {
   static consteval bool check() {
-    static_assert(WorldFor<World, M>, "vantage: the world measures nothing for this map: give it `std::optional<Measurement> observe(const View&)` with the map's Measurement");
+    static_assert(WorldFor<World, M>,
+                  "vantage: the world measures nothing for this map: give it `std::optional<Measurement> observe(const "
+                  "View&)` with the map's Measurement");
     if constexpr (Explain<M, Stop>::check())
-      static_assert(StopRuleFor<Stop, M>, "vantage: the stop rule does not say when: give it `bool operator()(const MapT&, const Situation&) const`, or take MissionTime or Measurements");
-    static_assert(ClockLike<Clock>, "vantage: the clock tells no mission time: give it `double elapsed_s() const`, begin(), mapped(), planned() and travelled(double s), or take MeasuredClock or ModelledClock");
+      static_assert(StopRuleFor<Stop, M>,
+                    "vantage: the stop rule does not say when: give it `bool operator()(const MapT&, const Situation&) "
+                    "const`, or take MissionTime or Measurements");
+    static_assert(ClockLike<Clock>,
+                  "vantage: the clock tells no mission time: give it `double elapsed_s() const`, begin(), mapped(), "
+                  "planned() and travelled(double s), or take MeasuredClock or ModelledClock");
     return WorldFor<World, M> && StopRuleFor<Stop, M> && ClockLike<Clock>;
   }
 };
@@ -155,6 +216,6 @@ inline constexpr bool needs_met = []<class... Ns>(std::type_identity<Needs<Ns...
 /// Whether the four policies make a loop.
 template <class M, class U, class Sa, class Se>
 concept Composable = Map<M> && needs_met<M, U> && needs_met<M, Sa> && needs_met<M, Se> && UtilityFor<U, M> &&
-                     SamplerFor<Sa, M> && SelectorFor<Se, M>;
+    SamplerFor<Sa, M> && SelectorFor<Se, M>;
 
 }  // namespace vantage

@@ -88,6 +88,8 @@ concept FisherMap = Map<M> && requires(const M m, const View& view, const Camera
 
 /// Trains while the robot moves.
 template <class M>
-concept RefinableMap = Map<M> && requires(M m, int steps, Rng& rng) { m.refine(steps, rng); };
+concept RefinableMap = Map<M> && requires(M m, int steps, Rng& rng) {
+  m.refine(steps, rng);
+};
 
 }  // namespace vantage

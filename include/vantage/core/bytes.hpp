@@ -30,14 +30,18 @@ concept PlainValue = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 class Sink {
  public:
   template <PlainValue T>
-  void put(const T& value) { append(&value, sizeof value); }
+  void put(const T& value) {
+    append(&value, sizeof value);
+  }
   template <PlainValue T>
   void put(std::span<const T> values) {
     put(static_cast<std::uint64_t>(values.size()));
     append(values.data(), values.size_bytes());
   }
   template <PlainValue T>
-  void put(const std::vector<T>& values) { put(std::span<const T>(values)); }
+  void put(const std::vector<T>& values) {
+    put(std::span<const T>(values));
+  }
   void put(std::string_view text) { put(std::span<const char>(text.data(), text.size())); }
   /// Rows, columns, then the coefficients in column-major order.
   template <class Derived>
@@ -73,7 +77,9 @@ class Source {
     return value;
   }
   template <PlainValue T>
-  void get(T& value) { value = get<T>(); }
+  void get(T& value) {
+    value = get<T>();
+  }
   template <PlainValue T>
   void get(std::vector<T>& values) {
     values.resize(count(sizeof(T)));
@@ -88,7 +94,8 @@ class Source {
     const auto rows = get<std::uint64_t>(), cols = get<std::uint64_t>();
     const std::uint64_t most = left() / sizeof(typename Derived::Scalar);
     if ((rows != 0 && cols > most / rows) || rows > most || cols > most)
-      throw Error(where_, concat("a ", rows, " x ", cols, " matrix at byte ", at_), concat("at most ", most, " values"));
+      throw Error(where_, concat("a ", rows, " x ", cols, " matrix at byte ", at_),
+                  concat("at most ", most, " values"));
     m.derived().resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(cols));
     read(m.derived().data(), static_cast<std::size_t>(m.size()) * sizeof(typename Derived::Scalar));
   }
@@ -107,7 +114,8 @@ class Source {
     return static_cast<std::size_t>(n);
   }
   void read(void* to, std::size_t size) {
-    if (size > left()) throw Error(where_, concat("ends at byte ", bytes_.size()), concat(size, " more bytes at byte ", at_));
+    if (size > left())
+      throw Error(where_, concat("ends at byte ", bytes_.size()), concat(size, " more bytes at byte ", at_));
     if (size != 0) std::memcpy(to, bytes_.data() + at_, size);
     at_ += size;
   }

@@ -12,8 +12,8 @@
 #include <vantage/core/error.hpp>
 #include <vantage/core/parallel.hpp>
 
-// Dense symmetric algebra on all threads of the caller's arena: Eigen's kernels on tiles of a fixed size, so that results
-// do not depend on the number of threads. Eigen's own decompositions use one thread.
+// Dense symmetric algebra on all threads of the caller's arena: Eigen's kernels on tiles of a fixed size, so that
+// results do not depend on the number of threads. Eigen's own decompositions use one thread.
 namespace vantage::dense {
 
 using Index = Eigen::Index;
@@ -29,9 +29,8 @@ inline constexpr Index tile = 256;
 /// f(begin, size) for the tiles of [0, n), concurrently.
 template <class F>
 void for_tiles(Index n, F&& f, Index size = tile) {
-  parallel_for_blocks(static_cast<std::size_t>(n), static_cast<std::size_t>(size), [&](std::size_t b, std::size_t e) {
-    f(static_cast<Index>(b), static_cast<Index>(e - b));
-  });
+  parallel_for_blocks(static_cast<std::size_t>(n), static_cast<std::size_t>(size),
+                      [&](std::size_t b, std::size_t e) { f(static_cast<Index>(b), static_cast<Index>(e - b)); });
 }
 
 /// f(row, rows, column, columns) for the tiles of the lower triangle of an n x n matrix, concurrently.
@@ -53,8 +52,10 @@ void add_gram(MatrixRef<T> c, const ConstRef<T>& a, T alpha) {
   for_lower_tiles(a.cols(), [&](Index i, Index ni, Index j, Index nj) {
     const auto ai = a.middleCols(i, ni), aj = a.middleCols(j, nj);
     auto cij = c.block(i, j, ni, nj);
-    if (i == j) cij.template selfadjointView<Eigen::Lower>().rankUpdate(ai.transpose(), alpha);
-    else cij.noalias() += alpha * (ai.transpose() * aj);
+    if (i == j)
+      cij.template selfadjointView<Eigen::Lower>().rankUpdate(ai.transpose(), alpha);
+    else
+      cij.noalias() += alpha * (ai.transpose() * aj);
   });
 }
 
@@ -89,8 +90,10 @@ void cholesky(MatrixRef<T> a, std::string_view where = "cholesky") {
     for_lower_tiles(rest, [&](Index i, Index ni, Index j, Index nj) {
       const auto pi = panel.middleRows(i, ni), pj = panel.middleRows(j, nj);
       auto t = trailing.block(i, j, ni, nj);
-      if (i == j) t.template selfadjointView<Eigen::Lower>().rankUpdate(pi, T(-1));
-      else t.noalias() -= pi * pj.transpose();
+      if (i == j)
+        t.template selfadjointView<Eigen::Lower>().rankUpdate(pi, T(-1));
+      else
+        t.noalias() -= pi * pj.transpose();
     });
   }
 }
@@ -101,16 +104,22 @@ void inverse_from_cholesky(const ConstRef<T>& l, Matrix<T>& c) {
   constexpr Index size = 96;
   const Index n = l.rows();
   Matrix<T> x = Matrix<T>::Zero(n, n);  // L^-1, lower
-  for_tiles(n, [&](Index j, Index nj) {
-    auto block = x.block(j, j, n - j, nj);
-    block.topRows(nj).setIdentity();
-    l.block(j, j, n - j, n - j).template triangularView<Eigen::Lower>().solveInPlace(block);
-  }, size);
+  for_tiles(
+      n,
+      [&](Index j, Index nj) {
+        auto block = x.block(j, j, n - j, nj);
+        block.topRows(nj).setIdentity();
+        l.block(j, j, n - j, n - j).template triangularView<Eigen::Lower>().solveInPlace(block);
+      },
+      size);
   c.resize(n, n);
-  for_lower_tiles(n, [&](Index i, Index ni, Index j, Index nj) {
-    c.block(i, j, ni, nj).noalias() = x.block(i, i, n - i, ni).transpose() * x.block(i, j, n - i, nj);
-    if (i != j) c.block(j, i, nj, ni) = c.block(i, j, ni, nj).transpose();
-  }, size);
+  for_lower_tiles(
+      n,
+      [&](Index i, Index ni, Index j, Index nj) {
+        c.block(i, j, ni, nj).noalias() = x.block(i, i, n - i, ni).transpose() * x.block(i, j, n - i, nj);
+        if (i != j) c.block(j, i, nj, ni) = c.block(i, j, ni, nj).transpose();
+      },
+      size);
 }
 
 }  // namespace vantage::dense

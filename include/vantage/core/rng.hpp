@@ -29,7 +29,8 @@ class Rng {
   /// An independent stream, named by `index`; does not advance this one. One per candidate, pixel block or step.
   [[nodiscard]] constexpr Rng fork(std::uint64_t index) const {
     Rng child;
-    child.key_ = mix(key_ ^ mix(counter_ * 0xD1342543DE82EF95ull + index + 1));
+    // The key is mixed once more than the index: otherwise Rng(a).fork(b - 1) would be Rng(b).fork(a - 1).
+    child.key_ = mix(mix(key_) ^ mix(counter_ * 0xD1342543DE82EF95ull + index + 1));
     return child;
   }
 

@@ -17,7 +17,9 @@ namespace vantage {
 /// A map that can say beforehand whether it would refuse a measurement: `check` throws Error exactly when `integrate`
 /// would refuse. Optional; it saves Carry a copy of the map per measurement.
 template <class M>
-concept ForetellsRefusal = Map<M> && requires(const M m, const typename M::Measurement& z) { m.check(z); };
+concept ForetellsRefusal = Map<M> && requires(const M m, const typename M::Measurement& z) {
+  m.check(z);
+};
 
 /// A map that is planned on, and riders that learn from the same measurements (explicit beside implicit, surfels beside
 /// voxels). To utilities, samplers and selectors it is the planned map, with all that this offers.
@@ -32,8 +34,9 @@ template <Map Planned, Map... Riders>
 class Carry : public Planned {
   static_assert((std::same_as<typename Planned::Measurement, typename Riders::Measurement> && ...),
                 "vantage: all maps of a Carry must learn from the same type of Measurement");
-  static_assert(((ForetellsRefusal<Riders> || std::copyable<Riders>) && ...),
-                "vantage: a rider must be copyable, or tell beforehand: give it `void check(const Measurement&) const`");
+  static_assert(
+      ((ForetellsRefusal<Riders> || std::copyable<Riders>)&&...),
+      "vantage: a rider must be copyable, or tell beforehand: give it `void check(const Measurement&) const`");
 
  public:
   std::tuple<Riders...> riders;
@@ -44,16 +47,13 @@ class Carry : public Planned {
     integrate(z, rng, std::index_sequence_for<Riders...>{});
   }
 
-  void save(Sink& sink) const
-    requires(Persistent<Planned> && ... && Persistent<Riders>)
-  {
+  void save(Sink& sink) const requires(Persistent<Planned>&&...&& Persistent<Riders>) {
     Planned::save(sink);
     std::apply([&](const Riders&... r) { (r.save(sink), ...); }, riders);
   }
   /// Loads into copies first: all maps change or none.
-  void load(Source& source)
-    requires((Persistent<Planned> && std::copyable<Planned>) && ... && (Persistent<Riders> && std::copyable<Riders>))
-  {
+  void load(Source& source) requires((Persistent<Planned> && std::copyable<Planned>)&&... &&
+                                     (Persistent<Riders> && std::copyable<Riders>)) {
     Planned planned(*this);
     std::tuple<Riders...> loaded(riders);
     planned.load(source);
@@ -82,8 +82,10 @@ class Carry : public Planned {
   }
   template <class M>
   static void commit(M& map, std::optional<M>& copy, const typename M::Measurement& z, Rng rng) {
-    if constexpr (ForetellsRefusal<M>) map.integrate(z, rng);
-    else map = std::move(*copy);
+    if constexpr (ForetellsRefusal<M>)
+      map.integrate(z, rng);
+    else
+      map = std::move(*copy);
   }
 };
 

@@ -28,8 +28,8 @@ class MeasuredClock {
 class ModelledClock {
  public:
   struct Config {
-    double mapping_s = 0.1;    ///< per measurement, >= 0
-    double planning_s = 0.1;   ///< per plan, >= 0
+    double mapping_s = 0.1;   ///< per measurement, >= 0
+    double planning_s = 0.1;  ///< per plan, >= 0
   };
   ModelledClock() = default;
   explicit ModelledClock(const Config& config) : config_(config) {

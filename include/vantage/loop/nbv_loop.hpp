@@ -24,8 +24,8 @@ namespace vantage {
 struct Plan {
   View view;
   Decision decision;
-  double utility = 0;          ///< of the chosen view
-  double best_utility = 0;     ///< of all candidates
+  double utility = 0;       ///< of the chosen view
+  double best_utility = 0;  ///< of all candidates
   std::size_t candidates = 0;
 };
 
@@ -34,9 +34,9 @@ enum class StopReason { stop_rule, nothing_to_do, world_ended };
 /// One measurement of a mission, as observers see it.
 template <class Measurement>
 struct Step {
-  std::uint64_t index = 0;           ///< 1 = the first measurement
+  std::uint64_t index = 0;  ///< 1 = the first measurement
   const Measurement& measurement;
-  const Plan* plan = nullptr;        ///< null for the first, unplanned views
+  const Plan* plan = nullptr;                          ///< null for the first, unplanned views
   double planning_s = 0, mapping_s = 0, action_s = 0;  ///< by the mission's clock
 };
 
@@ -110,8 +110,11 @@ class NbvLoop {
   StopReason resume(W& world, MissionState& state, Views first, const Stop& stop, C& clock, Observers&&... observers) {
     static_assert(ExplainRun<MapT, W, Stop, C>::check());
     const auto situation = [&] {
-      Situation q{.here = state.here, .visited = state.visited, .elapsed_s = clock.elapsed_s(),
-                  .travelled_m = state.travelled_m, .step = state.visited.size()};
+      Situation q{.here = state.here,
+                  .visited = state.visited,
+                  .elapsed_s = clock.elapsed_s(),
+                  .travelled_m = state.travelled_m,
+                  .step = state.visited.size()};
       if constexpr (requires { stop.remaining_s(q); }) q.remaining_s = stop.remaining_s(q);
       return q;
     };
@@ -132,7 +135,10 @@ class NbvLoop {
         plan_made = plan(q, planning_rng);
         clock.planned();
         planning_s = clock.elapsed_s() - q.elapsed_s;
-        if (!plan_made) { reason = StopReason::nothing_to_do; break; }
+        if (!plan_made) {
+          reason = StopReason::nothing_to_do;
+          break;
+        }
         q = situation();
         q.best_utility = plan_made->best_utility;
         if (stop(std::as_const(map), q)) break;
@@ -144,17 +150,26 @@ class NbvLoop {
         state.travelled_m += d.travel_m;
       }
       const std::optional<typename MapT::Measurement> z = world.observe(goal);
-      if (!z) { reason = StopReason::world_ended; break; }
+      if (!z) {
+        reason = StopReason::world_ended;
+        break;
+      }
       Rng mapping_rng = state.rng.fork(2 * step + 1);
       const double before_s = clock.elapsed_s();
       clock.begin();
       map.integrate(*z, mapping_rng);
       clock.mapped();
-      if constexpr (Posed<typename MapT::Measurement>) state.here = z->view; else state.here = goal;
+      if constexpr (Posed<typename MapT::Measurement>)
+        state.here = z->view;
+      else
+        state.here = goal;
       state.visited.push_back(state.here);
-      [[maybe_unused]] const Step<typename MapT::Measurement> done{.index = step + 1, .measurement = *z,
-                                                  .plan = plan_made ? &*plan_made : nullptr, .planning_s = planning_s,
-                                                  .mapping_s = clock.elapsed_s() - before_s, .action_s = action_s};
+      [[maybe_unused]] const Step<typename MapT::Measurement> done{.index = step + 1,
+                                                                   .measurement = *z,
+                                                                   .plan = plan_made ? &*plan_made : nullptr,
+                                                                   .planning_s = planning_s,
+                                                                   .mapping_s = clock.elapsed_s() - before_s,
+                                                                   .action_s = action_s};
       (tell_measured(observers, situation(), done), ...);
       (tell_completed(observers, world, clock, state), ...);
     }

@@ -27,7 +27,9 @@ class MissionTime {
     check.done();
   }
   template <Map M>
-  bool operator()(const M&, const Situation& q) const { return q.elapsed_s >= budget_s_; }
+  bool operator()(const M&, const Situation& q) const {
+    return q.elapsed_s >= budget_s_;
+  }
   [[nodiscard]] double remaining_s(const Situation& q) const { return std::max(0.0, budget_s_ - q.elapsed_s); }
 
  private:
@@ -39,7 +41,9 @@ class Measurements {
  public:
   explicit Measurements(std::uint64_t budget) : budget_(budget) {}
   template <Map M>
-  bool operator()(const M&, const Situation& q) const { return q.step >= budget_; }
+  bool operator()(const M&, const Situation& q) const {
+    return q.step >= budget_;
+  }
 
  private:
   std::uint64_t budget_;
@@ -55,7 +59,9 @@ class Travel {
     check.done();
   }
   template <Map M>
-  bool operator()(const M&, const Situation& q) const { return q.travelled_m >= budget_m_; }
+  bool operator()(const M&, const Situation& q) const {
+    return q.travelled_m >= budget_m_;
+  }
 
  private:
   double budget_m_;
@@ -72,7 +78,9 @@ class CoverageReached {
     check.done();
   }
   template <CoverageMap M>
-  bool operator()(const M& map, const Situation&) const { return map.coverage() >= share_; }
+  bool operator()(const M& map, const Situation&) const {
+    return map.coverage() >= share_;
+  }
 
  private:
   double share_;
@@ -88,7 +96,9 @@ class UtilityBelow {
     check.done();
   }
   template <Map M>
-  bool operator()(const M&, const Situation& q) const { return q.best_utility < bound_; }
+  bool operator()(const M&, const Situation& q) const {
+    return q.best_utility < bound_;
+  }
 
  private:
   double bound_;
@@ -102,15 +112,15 @@ class AnyOf {
   explicit AnyOf(Rules... rules) : rules_(std::move(rules)...) {}
 
   template <Map M>
-    requires(StopRuleFor<Rules, M> && ...)
-  bool operator()(const M& map, const Situation& q) const {
+  requires(StopRuleFor<Rules, M>&&...) bool operator()(const M& map, const Situation& q) const {
     return std::apply([&](const Rules&... rule) { return (static_cast<bool>(rule(map, q)) || ...); }, rules_);
   }
   /// The least that any of them leaves; infinity if none knows.
   [[nodiscard]] double remaining_s(const Situation& q) const {
     double least = std::numeric_limits<double>::infinity();
     const auto ask = [&](const auto& rule) {
-      if constexpr (requires { rule.remaining_s(q); }) least = std::min(least, static_cast<double>(rule.remaining_s(q)));
+      if constexpr (requires { rule.remaining_s(q); })
+        least = std::min(least, static_cast<double>(rule.remaining_s(q)));
     };
     std::apply([&](const Rules&... rule) { (ask(rule), ...); }, rules_);
     return least;

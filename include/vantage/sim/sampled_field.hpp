@@ -145,7 +145,7 @@ inline SampledField sampled_field(const FieldSamples& data, Rng rng, const Sampl
     if (!std::isnan(s.value)) ++values;
   }
   if (values < 5) throw Error("sampled_field", concat(values, " samples with a value"), "at least 5");
-  if (!((extent.sizes().array() > 0).all() && extent.sizes().allFinite()))
+  if (!((extent.sizes().array() > 0).all() && extent.sizes().allFinite() && extent.center().allFinite()))
     throw Error("sampled_field", concat("the samples extend over ", extent.sizes().x(), " x ", extent.sizes().y()),
                 "a rectangle");
 

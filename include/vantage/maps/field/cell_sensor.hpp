@@ -55,8 +55,8 @@ struct CountPartial {
   [[nodiscard]] static double variance(double) { return 0; }
 };
 
-/// Sensor model of section 3.1.3 (Fig. 3.2): a cell's measurement is the mean of the pixels whose centres lie in it, with
-/// noise that grows with height and with the part of the cell that was not seen. Immutable; thread-safe.
+/// Sensor model of section 3.1.3 (Fig. 3.2): a cell's measurement is the mean of the pixels whose centres lie in it,
+/// with noise that grows with height and with the part of the cell that was not seen. Immutable; thread-safe.
 template <class HeightNoise = VarianceGrowsWithHeight, class PartialCells = WeighPartial>
 struct CellSensor {
   using HeightNoiseType = HeightNoise;
@@ -91,8 +91,8 @@ struct CellSensor {
     return m;
   }
 
-  /// The cells that an image measures. Pixels without a value (NaN) do not count; a cell none of whose pixels has one is
-  /// left out. Throws Error on an image that is empty or infinite, or whose footprint is empty or not finite.
+  /// The cells that an image measures. Pixels without a value (NaN) do not count; a cell none of whose pixels has one
+  /// is left out. Throws Error on an image that is empty or infinite, or whose footprint is empty or not finite.
   [[nodiscard]] CellMeasurements measure(const NdTree& tree, const FieldImage& image) const {
     constexpr std::string_view where = "CellSensor::measure";
     const Box2& f = image.footprint;
@@ -118,7 +118,10 @@ struct CellSensor {
       Eigen::Index seen = 0;
       for (Eigen::Index r = r0; r < r1; ++r)
         for (Eigen::Index c = c0; c < c1; ++c)
-          if (!std::isnan(v(r, c))) { sum += v(r, c); ++seen; }
+          if (!std::isnan(v(r, c))) {
+            sum += v(r, c);
+            ++seen;
+          }
       if (seen == 0) continue;
       m.cells.push_back(all.cells[k]);
       value.push_back(sum / static_cast<double>(seen));
@@ -130,11 +133,12 @@ struct CellSensor {
   }
 
  private:
-  // Pixels [first, last) of n along an axis whose centres lie inside (low, high); the nearest one if there is none. A centre
-  // on an edge between two cells counts for neither, so that no noise is shared.
+  // Pixels [first, last) of n along an axis whose centres lie inside (low, high); the nearest one if there is none. A
+  // centre on an edge between two cells counts for neither, so that no noise is shared.
   static std::pair<Eigen::Index, Eigen::Index> pixels(double low, double high, double from, double to, Eigen::Index n) {
     const double pixel = (to - from) / static_cast<double>(n), slack = 1e-6;
-    auto first = static_cast<Eigen::Index>(std::clamp(std::floor((low - from) / pixel + 0.5 + slack), 0.0, double(n - 1)));
+    auto first =
+        static_cast<Eigen::Index>(std::clamp(std::floor((low - from) / pixel + 0.5 + slack), 0.0, double(n - 1)));
     auto last = static_cast<Eigen::Index>(std::clamp(std::ceil((high - from) / pixel - 0.5 - slack), 1.0, double(n)));
     if (last <= first) last = first + 1;
     return {first, last};

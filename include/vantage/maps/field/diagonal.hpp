@@ -28,7 +28,8 @@ class Diagonal {
 
   [[nodiscard]] double mean(std::size_t i) const { return mean_[static_cast<Eigen::Index>(i)]; }
   [[nodiscard]] double variance(std::size_t i) const { return variance_[static_cast<Eigen::Index>(i)]; }
-  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents, std::span<const double> weight) const {
+  [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
+                                                     std::span<const double> weight) const {
     std::vector<double> out;
     for (const ParentCell& p : parents) {
       double sum = 0;
@@ -88,8 +89,13 @@ class Diagonal {
     std::vector<std::uint8_t> target_;
   };
 
-  [[nodiscard]] std::size_t bytes() const { return static_cast<std::size_t>(mean_.size() + variance_.size()) * sizeof(double); }
-  void save(Sink& sink) const { sink.put(mean_); sink.put(variance_); }
+  [[nodiscard]] std::size_t bytes() const {
+    return static_cast<std::size_t>(mean_.size() + variance_.size()) * sizeof(double);
+  }
+  void save(Sink& sink) const {
+    sink.put(mean_);
+    sink.put(variance_);
+  }
   void load(Source& source, const NdTree& tree) {
     Eigen::VectorXd mean, variance;
     load_column(source, mean, tree.size());

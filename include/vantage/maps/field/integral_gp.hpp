@@ -31,7 +31,7 @@ namespace vantage {
 /// Adaptive-resolution Gaussian-process map of a scalar field (chapter 3), by policies:
 /// - Kernel: SquaredExponential (eq. 3.4) or a Matern, any SeparableKernel
 /// - Cells: what a cell stands for, CellAverage (eq. 3.1) or CellCentre
-/// - Belief: the covariance, Full<>, Latent or Diagonal
+/// - Belief: the covariance, Full<>, Latent<> or Diagonal
 /// - Resolution: Merging<> (section 3.1.5) or Fixed<>, with the interest
 /// - Sensor: CellSensor<> (section 3.1.3)
 ///
@@ -94,9 +94,9 @@ class IntegralGp {
   /// Memory of the map itself.
   [[nodiscard]] std::size_t bytes() const { return tree_.bytes() + belief_.bytes(); }
 
-  /// Eq. 3.13 for every view, were `given` measured before: the sum of variance that cells of interest lose, summed over
-  /// cells (not weighed by area). A view whose footprint is off the map: 0. Throws Error on a view that does not look
-  /// down. Candidates run concurrently.
+  /// Eq. 3.13 for every view, were `given` measured before: the sum of variance that cells of interest lose, summed
+  /// over cells (not weighed by area). A view whose footprint is off the map: 0. Throws Error on a view that does not
+  /// look down. Candidates run concurrently.
   void forecast(Views given, Views views, std::span<double> reduction) const {
     std::vector<std::uint8_t> target(size());
     for (std::size_t i = 0; i < size(); ++i) target[i] = interest().target(mean(i), variance(i));
@@ -109,8 +109,10 @@ class IntegralGp {
     });
     std::vector<std::size_t> order(views.size());  // the largest first, so that no thread ends with the long ones
     std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return z[a].cells.size() > z[b].cells.size(); });
-    parallel_for(order.size(), [&](std::size_t k) { reduction[order[k]] = std::max(0.0, forecaster.reduction(z[order[k]])); });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return z[a].cells.size() > z[b].cells.size(); });
+    parallel_for(order.size(),
+                 [&](std::size_t k) { reduction[order[k]] = std::max(0.0, forecaster.reduction(z[order[k]])); });
   }
 
   /// Posterior deviation of the cell under each pixel's centre; 0 where the pixel does not see the map.
@@ -162,13 +164,18 @@ class IntegralGp {
   void check(const CellMeasurements& z) const {
     const auto l = static_cast<Eigen::Index>(z.cells.size());
     if (z.value.size() != l || z.noise_variance.size() != l)
-      throw Error("IntegralGp::fuse", concat(l, " cells, ", z.value.size(), " values, ", z.noise_variance.size(), " variances"), "as many of each");
+      throw Error("IntegralGp::fuse",
+                  concat(l, " cells, ", z.value.size(), " values, ", z.noise_variance.size(), " variances"),
+                  "as many of each");
     for (std::size_t k = 0; k < z.cells.size(); ++k) {
       const auto i = static_cast<Eigen::Index>(k);
       if (z.cells[k] >= size() || (k > 0 && z.cells[k] <= z.cells[k - 1]))
         throw Error("IntegralGp::fuse", concat("cell ", z.cells[k]), concat("ascending cells below ", size()));
       if (!std::isfinite(z.value[i]) || !std::isfinite(z.noise_variance[i]) || !(z.noise_variance[i] > 0))
-        throw Error("IntegralGp::fuse", concat("cell ", z.cells[k], " measured as ", z.value[i], " with noise variance ", z.noise_variance[i]), "a finite value and a variance > 0");
+        throw Error(
+            "IntegralGp::fuse",
+            concat("cell ", z.cells[k], " measured as ", z.value[i], " with noise variance ", z.noise_variance[i]),
+            "a finite value and a variance > 0");
     }
   }
   [[nodiscard]] CellMeasurements covered(const View& v) const {
@@ -177,9 +184,9 @@ class IntegralGp {
   // What the saved numbers depend on.
   [[nodiscard]] std::string signature() const {
     const NdTree::Config& t = config_.tree;
-    return concat("IntegralGp ", Kernel::name, " ", config_.kernel.variance, " ", config_.kernel.length_m, " ", Cells::name, " ",
-                  Belief::name, " ", Resolution::name, " ", t.area.min().transpose(), " ", t.area.max().transpose(), " ",
-                  t.branching, "^", t.depth, " ", config_.prior_mean);
+    return concat("IntegralGp ", Kernel::name, " ", config_.kernel.variance, " ", config_.kernel.length_m, " ",
+                  Cells::name, " ", Belief::name, " ", Resolution::name, " ", t.area.min().transpose(), " ",
+                  t.area.max().transpose(), " ", t.branching, "^", t.depth, " ", config_.prior_mean);
   }
 
   Config config_;

@@ -10,8 +10,8 @@
 namespace vantage {
 
 /// Which part of a field matters, one policy for merging, planning and metrics: `hot(value)` for known values,
-/// `interesting(mean, variance)` for beliefs, with a margin (its complement may be merged), `target(mean, variance)` for
-/// the region whose variance the planner reduces.
+/// `interesting(mean, variance)` for beliefs, with a margin (its complement may be merged), `target(mean, variance)`
+/// for the region whose variance the planner reduces.
 template <class I>
 concept Interest = std::copyable<I> && requires(const I i, double x) {
   { i.hot(x) } -> std::same_as<bool>;

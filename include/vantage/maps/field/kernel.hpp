@@ -66,7 +66,9 @@ struct SquaredExponential {
 struct CellAverage {
   static constexpr std::string_view name = "cell_average";
   template <SeparableKernel K>
-  static double correlation(const K& kernel, const Interval& a, const Interval& b) { return kernel.average(a, b); }
+  static double correlation(const K& kernel, const Interval& a, const Interval& b) {
+    return kernel.average(a, b);
+  }
 };
 
 /// What a cell's value stands for: the field at the cell's centre (GP fusion before integral kernels).

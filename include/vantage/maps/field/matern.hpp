@@ -9,15 +9,14 @@
 
 namespace vantage {
 
-/// Matern kernel of smoothness nu = P / Q, one of 1/2, 3/2, 5/2 (Rasmussen & Williams 2006, eq. 4.17), for fields rougher
-/// than the squared exponential's: samples are 0, 1 or 2 times differentiable.
+/// Matern kernel of smoothness nu = P / Q, one of 1/2, 3/2, 5/2 (Rasmussen & Williams 2006, eq. 4.17), for fields
+/// rougher than the squared exponential's: samples are 0, 1 or 2 times differentiable.
 ///
-/// As a SeparableKernel it is the product of one-dimensional Materns over the axes, which is not the isotropic Matern of
-/// the distance (for nu = 1/2: exp(-|dx| / l - |dy| / l)). Only the product has averages over cells that are products of
-/// integrals over one axis. GpRegression offers both forms. Immutable; thread-safe.
+/// As a SeparableKernel it is the product of one-dimensional Materns over the axes, which is not the isotropic Matern
+/// of the distance (for nu = 1/2: exp(-|dx| / l - |dy| / l)). Only the product has averages over cells that are
+/// products of integrals over one axis. GpRegression offers both forms. Immutable; thread-safe.
 template <int P, int Q>
-  requires((P == 1 || P == 3 || P == 5) && Q == 2)
-struct Matern {
+requires((P == 1 || P == 3 || P == 5) && Q == 2) struct Matern {
   static constexpr std::string_view name = P == 1 ? "matern_1_2" : P == 3 ? "matern_3_2" : "matern_5_2";
   double variance = 1.0;   ///< sigma^2 > 0, in the field's unit squared
   double length_m = 2.36;  ///< l > 0

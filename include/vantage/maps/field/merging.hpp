@@ -21,7 +21,9 @@ struct Fixed {
   I interest = {};
 
   template <class Belief>
-  [[nodiscard]] bool plan(const NdTree&, const Belief&, Merge&) const { return false; }
+  [[nodiscard]] bool plan(const NdTree&, const Belief&, Merge&) const {
+    return false;
+  }
 };
 
 /// Adaptive resolution (section 3.1.5): a parent replaces its P children where all are uninteresting leaves (eq. 3.8),
@@ -61,11 +63,15 @@ struct Merging {
         const NdTree::Leaf& c = nodes[k].cell;
         const auto is_sibling = [&](const Node& b) { return b.dull && b.cell.level == level; };
         if (c.level != level || c.ix % branching != 0 || c.iy % branching != 0 || k + p > nodes.size() ||
-            !std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(k), nodes.begin() + static_cast<std::ptrdiff_t>(k + p), is_sibling)) {
+            !std::all_of(nodes.begin() + static_cast<std::ptrdiff_t>(k),
+                         nodes.begin() + static_cast<std::ptrdiff_t>(k + p), is_sibling)) {
           next.push_back(nodes[k++]);
           continue;
         }
-        Node parent{{level - 1, c.ix / branching, c.iy / branching, true}, {nodes[k].leaves.first, nodes[k + p - 1].leaves.last}, 0, true};
+        Node parent{{level - 1, c.ix / branching, c.iy / branching, true},
+                    {nodes[k].leaves.first, nodes[k + p - 1].leaves.last},
+                    0,
+                    true};
         for (const std::size_t end = k + p; k < end; ++k) {
           parent.mean += share * nodes[k].mean;
           parent.cell.measured = parent.cell.measured && nodes[k].cell.measured;

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <vantage/maps/field/batch.hpp>
 #include <vantage/maps/field/committee.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/full.hpp>
-#include <vantage/maps/field/gp_regression_map.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/presets.hpp>
 
@@ -15,7 +15,8 @@ namespace detail {
 template <class Preset>
 using AboveThreshold = Above<typename FieldPreset<Preset>::Margin>;
 template <class Preset>
-using AdaptiveSensor = CellSensor<typename FieldPreset<Preset>::HeightNoise, typename FieldPreset<Preset>::PartialAdaptive>;
+using AdaptiveSensor =
+    CellSensor<typename FieldPreset<Preset>::HeightNoise, typename FieldPreset<Preset>::PartialAdaptive>;
 template <class Preset>
 using FixedSensor = CellSensor<typename FieldPreset<Preset>::HeightNoise, typename FieldPreset<Preset>::PartialFixed>;
 template <class Preset, class Interest>
@@ -25,7 +26,8 @@ using MergingOf = Merging<Interest, FieldPreset<Preset>::merge_measured_only>;
 /// Ours: GP fusion of cell averages by the integral kernel, uninteresting cells merge.
 template <class Preset = DefaultFieldPreset, class Belief = Full<>, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using Ours = IntegralGp<Kernel, CellAverage, Belief, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using Ours =
+    IntegralGp<Kernel, CellAverage, Belief, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
 /// FR-GPF: GP fusion at the cells' centres, fixed resolution (Popovic et al.).
 template <class Preset = DefaultFieldPreset, class Belief = Full<>, class Interest = detail::AboveThreshold<Preset>,
@@ -45,17 +47,21 @@ using ArIdp = IntegralGp<SquaredExponential, typename FieldPreset<Preset>::Indep
 /// AR-GPR-IK: full regression on all measurements with the integral kernel, uninteresting cells merge (Reid et al.).
 template <class Preset = DefaultFieldPreset, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using ArGprIk = GpRegressionMap<Kernel, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using ArGprIk =
+    IntegralGp<Kernel, CellAverage, Batch, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
 /// AR-BCM: a Bayesian committee machine over the measurements, uninteresting query points are pruned (Wang et al.).
 template <class Preset = DefaultFieldPreset, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using ArBcm = BayesianCommittee<Kernel, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using ArBcm =
+    IntegralGp<Kernel, CellCentre, Committee, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
-/// What a map is made for: the presets start planning missions from a prior mean at the threshold, to encourage exploration.
+/// What a map is made for: the presets start planning missions from a prior mean at the threshold, to encourage
+/// exploration.
 enum class FieldTask { mapping, planning };
 
-/// A method's configuration with a preset's values: kernel, alpha, threshold and the task's prior mean; a field in [0, 1].
+/// A method's configuration with a preset's values: kernel, alpha, threshold and the task's prior mean; a field in [0,
+/// 1].
 ///
 ///     Ours<> map{configured<Ours<>>()};
 template <class Method, class Preset = DefaultFieldPreset>

@@ -22,8 +22,8 @@ struct LeafGroup {
   std::size_t first = 0, last = 0;
 };
 
-/// A merging of leaves as the matrix M of eq. 3.12: one group a new leaf, in order, and each old leaf's weight, its share
-/// of the new leaf's area.
+/// A merging of leaves as the matrix M of eq. 3.12: one group a new leaf, in order, and each old leaf's weight, its
+/// share of the new leaf's area.
 struct Merge {
   std::vector<LeafGroup> groups;
   std::vector<double> weight;
@@ -123,7 +123,11 @@ class NdTree {
   /// The cell that a group of leaves makes up.
   [[nodiscard]] Leaf parent_of(const LeafGroup& g) const {
     Leaf a = leaves_[g.first], b = leaves_[g.last - 1];
-    const auto up = [&](Leaf& c) { c.ix /= config_.branching; c.iy /= config_.branching; --c.level; };
+    const auto up = [&](Leaf& c) {
+      c.ix /= config_.branching;
+      c.iy /= config_.branching;
+      --c.level;
+    };
     while (a.level != b.level || a.ix != b.ix || a.iy != b.iy) {
       const int deeper = std::max(a.level, b.level);
       if (a.level == deeper) up(a);
@@ -147,7 +151,12 @@ class NdTree {
 
   void save(Sink& sink) const {
     sink.put(static_cast<std::uint64_t>(size()));
-    for (const Leaf& c : leaves_) { sink.put(c.level); sink.put(c.ix); sink.put(c.iy); sink.put(c.measured); }
+    for (const Leaf& c : leaves_) {
+      sink.put(c.level);
+      sink.put(c.ix);
+      sink.put(c.iy);
+      sink.put(c.measured);
+    }
   }
   /// For a tree of the same config. Throws Error unless the leaves tile the area in depth-first order.
   void load(Source& source) {
@@ -158,7 +167,10 @@ class NdTree {
     std::uint64_t next = 0;  // the finest cell, in depth-first order, at which the next leaf must begin
     for (std::uint64_t i = 0; i < n; ++i) {
       Leaf c;
-      source.get(c.level); source.get(c.ix); source.get(c.iy); c.measured = source.get<std::uint8_t>() != 0;
+      source.get(c.level);
+      source.get(c.ix);
+      source.get(c.iy);
+      c.measured = source.get<std::uint8_t>() != 0;
       if (c.level < 0 || c.level > config_.depth || c.ix < 0 || c.iy < 0 || c.ix >= side(c.level) ||
           c.iy >= side(c.level) || first_cell(c) != next)
         throw Error(source.where(), concat("leaf ", i, " is out of place"), "leaves that tile the area in order");
@@ -174,7 +186,10 @@ class NdTree {
 
  private:
   void split(const Leaf& node) {
-    if (node.level == config_.depth) { leaves_.push_back(node); return; }
+    if (node.level == config_.depth) {
+      leaves_.push_back(node);
+      return;
+    }
     for (int y = 0; y < config_.branching; ++y)
       for (int x = 0; x < config_.branching; ++x)
         split({node.level + 1, node.ix * config_.branching + x, node.iy * config_.branching + y});

@@ -37,11 +37,11 @@ struct FieldPreset<preset::thesis> {
 /// The published code.
 template <>
 struct FieldPreset<preset::reference> {
-  using Margin = DeviationMargin;               ///< mean + deviation < threshold merges; mean >= threshold is planned for
-  using HeightNoise = DeviationGrowsWithHeight; ///< sigma_a = alpha h
+  using Margin = DeviationMargin;  ///< mean + deviation < threshold merges; mean >= threshold is planned for
+  using HeightNoise = DeviationGrowsWithHeight;  ///< sigma_a = alpha h
   using PartialAdaptive = SkipPartial;
   using PartialFixed = CountPartial;
-  using IndependentCells = CellCentre;          ///< prior variance under independence: sigma^2
+  using IndependentCells = CellCentre;  ///< prior variance under independence: sigma^2
   static constexpr bool merge_measured_only = true;
 
   SquaredExponential kernel = {.variance = 25, .length_m = 2.73};

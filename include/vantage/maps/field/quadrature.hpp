@@ -24,7 +24,8 @@ struct GaussLegendre {
   /// Newton's method on P_N from Chebyshev's guesses; at compile time, hence a cosine of our own.
   constexpr GaussLegendre() {
     for (std::size_t i = 0; i < N; ++i) {
-      double x = -cosine(std::numbers::pi * (static_cast<double>(i) + 0.75) / (static_cast<double>(N) + 0.5)), slope = 0;
+      double x = -cosine(std::numbers::pi * (static_cast<double>(i) + 0.75) / (static_cast<double>(N) + 0.5)),
+             slope = 0;
       for (int iteration = 0; iteration < 8; ++iteration) {
         double p = 1, before = 0;
         for (std::size_t k = 0; k < N; ++k) {

@@ -1,1 +1,0 @@
-namespace vantage { template <class,class,class> struct GpRegressionMap; }

@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <vantage/concepts/explain.hpp>
+#include <vantage/loop/nbv_loop.hpp>
+
+#include "maps.hpp"
+#include "policies.hpp"
+
+// Interchangeability, run: every two policies that the concepts allow together go three steps in some loop. Which loops
+// these are is worked out at compile time, few enough to build and enough to cover every pair.
+namespace vantage::test {
+namespace {
+
+struct Loop {
+  std::size_t map = 0, utility = 0, sampler = 0, selector = 0;
+};
+constexpr std::size_t n_maps = Maps::size, n_utilities = Utilities::size, n_samplers = Samplers::size, n_selectors = Selectors::size;
+template <std::size_t Rows, std::size_t Columns>
+using Table = std::array<std::array<bool, Columns>, Rows>;
+
+template <class M, class P, class Role>
+constexpr bool fits() {
+  if constexpr (!needs_met<M, P>) return false;
+  else return Role::template fits<P, M>;
+}
+struct AsUtility { template <class P, class M> static constexpr bool fits = UtilityFor<P, M>; };
+struct AsSampler { template <class P, class M> static constexpr bool fits = SamplerFor<P, M>; };
+struct AsSelector { template <class P, class M> static constexpr bool fits = SelectorFor<P, M>; };
+
+template <class Role, class... Ms, class... Ps>
+constexpr auto table(List<Ms...>, List<Ps...>) {
+  const auto row = []<class M>(std::type_identity<M>) { return std::array<bool, sizeof...(Ps)>{fits<M, Ps, Role>()...}; };
+  return Table<sizeof...(Ms), sizeof...(Ps)>{row(std::type_identity<Ms>{})...};
+}
+constexpr auto utility_fits = table<AsUtility>(Maps{}, Utilities{});
+constexpr auto sampler_fits = table<AsSampler>(Maps{}, Samplers{});
+constexpr auto selector_fits = table<AsSelector>(Maps{}, Selectors{});
+
+/// Which pairs some loop of a set has brought together.
+struct Covered {
+  Table<n_maps, n_utilities> map_utility{};
+  Table<n_maps, n_samplers> map_sampler{};
+  Table<n_maps, n_selectors> map_selector{};
+  Table<n_utilities, n_samplers> utility_sampler{};
+  Table<n_utilities, n_selectors> utility_selector{};
+  Table<n_samplers, n_selectors> sampler_selector{};
+  constexpr int news(const Loop& l) const {
+    return !map_utility[l.map][l.utility] + !map_sampler[l.map][l.sampler] + !map_selector[l.map][l.selector] +
+           !utility_sampler[l.utility][l.sampler] + !utility_selector[l.utility][l.selector] +
+           !sampler_selector[l.sampler][l.selector];
+  }
+  constexpr void add(const Loop& l) {
+    map_utility[l.map][l.utility] = map_sampler[l.map][l.sampler] = map_selector[l.map][l.selector] =
+        utility_sampler[l.utility][l.sampler] = utility_selector[l.utility][l.selector] =
+            sampler_selector[l.sampler][l.selector] = true;
+  }
+};
+struct Choice {
+  std::array<Loop, n_maps * n_utilities> loops{};
+  std::size_t count = 0;
+  Covered covered{};
+};
+/// One loop for each map and utility that fit, with the sampler and the selector that bring most new pairs.
+constexpr Choice choice = [] {
+  Choice c;
+  for (std::size_t m = 0; m < n_maps; ++m)
+    for (std::size_t u = 0; u < n_utilities; ++u) {
+      if (!utility_fits[m][u]) continue;
+      Loop best{};
+      int most = -1;
+      for (std::size_t s = 0; s < n_samplers; ++s)
+        for (std::size_t d = 0; d < n_selectors; ++d) {
+          if (!sampler_fits[m][s] || !selector_fits[m][d]) continue;
+          const Loop l{m, u, s, d};
+          if (const int news = c.covered.news(l); news > most) most = news, best = l;
+        }
+      if (most < 0) continue;
+      c.covered.add(best);
+      c.loops[c.count++] = best;
+    }
+  return c;
+}();
+
+template <class M, class U, class Sa, class Se>
+MissionState three_steps() {
+  NbvLoop loop{MapFixture<M>::make(), make<U>(), make<Sa>(), make<Se>()};
+  typename MapFixture<M>::World world;
+  return loop.run(world, nadir(1, 1, 3), {}, Measurements(3), ModelledClock{}, Rng{7});
+}
+
+template <std::size_t K>
+void run_loop() {
+  constexpr Loop l = choice.loops[K];
+  using M = typename At<l.map, Maps>::type;
+  using U = typename At<l.utility, Utilities>::type;
+  using Sa = typename At<l.sampler, Samplers>::type;
+  using Se = typename At<l.selector, Selectors>::type;
+  static_assert(Composable<M, U, Sa, Se>);
+  SCOPED_TRACE(testing::Message() << "map " << l.map << ", utility " << l.utility << ", sampler " << l.sampler << ", selector " << l.selector);
+  // A sensor that can only look down, asked what it would see looking sideways, must say so and not make it up.
+  if constexpr (MapFixture<M>::looks_down_only && std::same_as<U, VarianceReduction> && !looks_down<Sa>) {
+    EXPECT_THROW((three_steps<M, U, Sa, Se>()), Error);
+  } else {
+    const MissionState end = three_steps<M, U, Sa, Se>();
+    EXPECT_EQ(end.visited.size(), 3u);
+    EXPECT_GT(end.travelled_m, 0);
+  }
+}
+
+TEST(Matrix, EveryPairThatFitsGoesThreeSteps) {
+  []<std::size_t... Ks>(std::index_sequence<Ks...>) { (run_loop<Ks>(), ...); }(std::make_index_sequence<choice.count>{});
+}
+
+TEST(Matrix, NoPairIsLeftOut) {
+  const Covered& c = choice.covered;
+  for (std::size_t m = 0; m < n_maps; ++m) {
+    for (std::size_t u = 0; u < n_utilities; ++u) EXPECT_EQ(c.map_utility[m][u], utility_fits[m][u]) << m << " " << u;
+    for (std::size_t s = 0; s < n_samplers; ++s) EXPECT_EQ(c.map_sampler[m][s], sampler_fits[m][s]) << m << " " << s;
+    for (std::size_t d = 0; d < n_selectors; ++d) EXPECT_EQ(c.map_selector[m][d], selector_fits[m][d]) << m << " " << d;
+  }
+  const auto some_map = [](auto&& fits) {
+    for (std::size_t m = 0; m < n_maps; ++m)
+      if (fits(m)) return true;
+    return false;
+  };
+  for (std::size_t u = 0; u < n_utilities; ++u)
+    for (std::size_t s = 0; s < n_samplers; ++s)
+      EXPECT_EQ(c.utility_sampler[u][s], some_map([&](std::size_t m) { return utility_fits[m][u] && sampler_fits[m][s]; })) << u << " " << s;
+  for (std::size_t u = 0; u < n_utilities; ++u)
+    for (std::size_t d = 0; d < n_selectors; ++d)
+      EXPECT_EQ(c.utility_selector[u][d], some_map([&](std::size_t m) { return utility_fits[m][u] && selector_fits[m][d]; })) << u << " " << d;
+  for (std::size_t s = 0; s < n_samplers; ++s)
+    for (std::size_t d = 0; d < n_selectors; ++d)
+      EXPECT_EQ(c.sampler_selector[s][d], some_map([&](std::size_t m) { return sampler_fits[m][s] && selector_fits[m][d]; })) << s << " " << d;
+}
+
+}  // namespace
+}  // namespace vantage::test

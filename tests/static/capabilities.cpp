@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#include <concepts>
+#include <optional>
+#include <vector>
+
+#include <vantage/concepts/archetypes.hpp>
+#include <vantage/concepts/explain.hpp>
+#include <vantage/loop/carry.hpp>
+#include <vantage/maps/field/diagonal.hpp>
+#include <vantage/maps/field/integral_gp.hpp>
+
+// The capability table: what each map offers, and what it does not. A map that gains or loses a capability by accident
+// does not compile here.
+namespace vantage {
+namespace {
+
+using need::Coverage, need::Depth, need::Field, need::Fisher, need::Forecast, need::Occupancy, need::Uncertainty;
+using Frontier = need::Regions<frontier>;
+using LowConfidence = need::Regions<low_confidence>;
+
+template <class M, class... Ns>
+constexpr int offered = (0 + ... + offers<M, Ns>);
+/// Offers all of Ns, and nothing else of what there is to offer.
+template <class M, class... Ns>
+constexpr bool offers_just =
+    Map<M> && offered<M, Ns...> == sizeof...(Ns) &&
+    offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, LowConfidence, Fisher> == sizeof...(Ns);
+
+// Archetypes: each adds one capability to a plain map.
+static_assert(offers_just<archetype::Map>);
+static_assert(offers_just<archetype::Uncertain<>, Uncertainty>);
+static_assert(offers_just<archetype::Ranging<>, Uncertainty, Depth>);
+static_assert(offers_just<archetype::Forecasting<>, Forecast>);
+static_assert(offers_just<archetype::Forecasting<archetype::Uncertain<>>, Forecast, Uncertainty>);
+static_assert(offers_just<archetype::Covering<>, Coverage>);
+static_assert(offers_just<archetype::Occupied<>, Occupancy>);
+static_assert(offers_just<archetype::Frontiers<>, Occupancy, Frontier>);
+static_assert(offers_just<archetype::Field<>, Field>);
+static_assert(offers_just<archetype::Fisher<>, Fisher>);
+static_assert(offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, Fisher>);
+static_assert(RefinableMap<archetype::Refinable<>> && !RefinableMap<archetype::Map>);
+static_assert(Persistent<archetype::Persistent<>> && !Persistent<archetype::Map>);
+
+// A Carry offers what its planned map offers; it saves itself if all of its maps do.
+static_assert(offers_just<Carry<archetype::Map, archetype::FullMap>>);
+static_assert(offers_just<Carry<archetype::Uncertain<>, archetype::Map>, Uncertainty>);
+static_assert(Persistent<Carry<archetype::FullMap, archetype::Persistent<>>>);
+static_assert(!Persistent<Carry<archetype::FullMap, archetype::Map>>);
+static_assert(!Persistent<Carry<archetype::Map, archetype::FullMap>>);
+
+// Integral GP: Uncertain, Field, Forecast (and coverage), whatever its policies.
+template <class M>
+constexpr bool field_map = offers_just<M, Uncertainty, Field, Forecast, Coverage> && Persistent<M>;
+static_assert(field_map<IntegralGp<>>);
+static_assert(field_map<IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>>>);
+static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>>);
+static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Fixed<>>>);
+static_assert(Posed<IntegralGp<>::Measurement> && Posed<archetype::Map::Measurement>);
+
+// What is no map: each lacks one thing.
+struct WithoutMeasurement {
+  void integrate(int, Rng&);
+  Box3 bounds() const;
+};
+struct WithoutRng {
+  using Measurement = int;
+  void integrate(int);
+  Box3 bounds() const;
+};
+struct WithoutBounds {
+  using Measurement = int;
+  void integrate(int, Rng&);
+};
+struct WithMutableBounds {
+  using Measurement = int;
+  void integrate(int, Rng&);
+  Box3 bounds();
+};
+struct Immovable {
+  using Measurement = int;
+  Immovable(Immovable&&) = delete;
+  void integrate(int, Rng&);
+  Box3 bounds() const;
+};
+struct MoveOnly : archetype::Map {
+  MoveOnly() = default;
+  MoveOnly(MoveOnly&&) = default;
+  MoveOnly& operator=(MoveOnly&&) = default;
+};
+static_assert(!Map<int> && !Map<WithoutMeasurement> && !Map<WithoutRng> && !Map<WithoutBounds> && !Map<WithMutableBounds> && !Map<Immovable>);
+static_assert(Map<MoveOnly>);  // copies are nobody's business but a Carry's
+
+// Renders: a member that is not const, or draws something else, does not count.
+struct RendersOnce : archetype::Map {
+  void render(const View&, const Camera&, Rendering<channel::Uncertainty>&);
+};
+struct RendersColour : archetype::Map {
+  void render(const View&, const Camera&, Rendering<channel::Colour>&) const;
+};
+static_assert(!UncertainMap<RendersOnce> && !UncertainMap<RendersColour>);
+static_assert(Renders<RendersColour, channel::Colour> && !Renders<RendersColour, channel::Depth>);
+
+// Needs of policies made of others are the needs of all.
+struct NeedsTwo {
+  using MapNeeds = Needs<Uncertainty, Field>;
+};
+struct NeedsOne {
+  using MapNeeds = Needs<Coverage>;
+};
+static_assert(std::same_as<NeedsOf<NeedsTwo, int, NeedsOne>, Needs<Uncertainty, Field, Coverage>>);
+static_assert(std::same_as<NeedsOf<int>, Needs<>> && std::same_as<NeedsOf<>, Needs<>>);
+static_assert(needs_met<archetype::FullMap, NeedsTwo> && !needs_met<archetype::Uncertain<>, NeedsTwo> && needs_met<archetype::Map, int>);
+
+}  // namespace
+}  // namespace vantage
