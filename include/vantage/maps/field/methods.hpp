@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <vantage/maps/field/batch.hpp>
 #include <vantage/maps/field/committee.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/full.hpp>
-#include <vantage/maps/field/gp_regression_map.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/presets.hpp>
 
@@ -47,12 +47,12 @@ using ArIdp = IntegralGp<SquaredExponential, typename FieldPreset<Preset>::Indep
 /// AR-GPR-IK: full regression on all measurements with the integral kernel, uninteresting cells merge (Reid et al.).
 template <class Preset = DefaultFieldPreset, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using ArGprIk = GpRegressionMap<Kernel, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using ArGprIk = IntegralGp<Kernel, CellAverage, Batch, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
 /// AR-BCM: a Bayesian committee machine over the measurements, uninteresting query points are pruned (Wang et al.).
 template <class Preset = DefaultFieldPreset, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using ArBcm = BayesianCommittee<Kernel, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using ArBcm = IntegralGp<Kernel, CellCentre, Committee, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
 /// What a map is made for: the presets start planning missions from a prior mean at the threshold, to encourage
 /// exploration.

@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <cmath>
+#include <functional>
 
 #include <vantage/maps/field/kernel.hpp>
 #include <vantage/maps/field/nd_tree.hpp>
@@ -14,6 +15,7 @@ namespace vantage {
 struct Prior {
   double mean = 0, variance = 1;
   Eigen::MatrixXd kx, ky;  ///< resolution x resolution
+  std::function<double(const Interval&, const Interval&)> correlation = {};  ///< one axis' factor, for cells of any level
 
   template <class Cells, SeparableKernel K>
   static Prior make(const NdTree& tree, double mean, const K& kernel, Cells = {}) {
@@ -30,7 +32,8 @@ struct Prior {
       return k;
     };
     return {mean, kernel.variance, toeplitz([&](int i) { return tree.x_interval(depth, i); }),
-            toeplitz([&](int i) { return tree.y_interval(depth, i); })};
+            toeplitz([&](int i) { return tree.y_interval(depth, i); }),
+            [kernel](const Interval& a, const Interval& b) { return Cells::correlation(kernel, a, b); }};
   }
 };
 

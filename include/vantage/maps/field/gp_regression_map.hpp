@@ -1,4 +1,0 @@
-namespace vantage {
-template <class, class, class>
-struct GpRegressionMap;
-}
