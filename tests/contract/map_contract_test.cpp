@@ -12,7 +12,7 @@
 #include <vantage/concepts/map.hpp>
 #include <vantage/core/bytes.hpp>
 
-#include "models.hpp"
+#include "maps.hpp"
 #include "suite.hpp"
 
 // What the map concepts mean, over every map. Each capability has a suite of its own over the maps that offer it.
@@ -43,6 +43,11 @@ M after(std::size_t measurements, M map = MapFixture<M>::make()) {
     map.integrate(MapFixture<M>::measurement(k), rng);
   }
   return map;
+}
+template <class M>
+M large() {
+  if constexpr (requires { MapFixture<M>::large(); }) return MapFixture<M>::large();
+  else return MapFixture<M>::make();
 }
 template <class M>
 std::vector<double> forecast(const M& map, Views given, Views views) {
@@ -118,7 +123,7 @@ TYPED_TEST(MapContract, RefusesWhatIsCutShort) {
 TYPED_TEST(MapContract, TheSameBitsWithAnyNumberOfThreads) {
   const std::vector<View> views = MapFixture<TypeParam>::views();
   const auto mission = [&] {
-    const TypeParam map = after<TypeParam>(measured);
+    const TypeParam map = after(measured, large<TypeParam>());
     std::vector<float> pixels;
     std::vector<double> reductions;
     for (const View& v : views) {

@@ -11,7 +11,8 @@
 #include <vantage/concepts/explain.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 
-#include "models.hpp"
+#include "maps.hpp"
+#include "policies.hpp"
 
 // Interchangeability, run: every two policies that the concepts allow together go three steps in some loop. Which loops
 // these are is worked out at compile time, few enough to build and enough to cover every pair.

@@ -2,14 +2,21 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <concepts>
 #include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <vantage/concepts/archetypes.hpp>
 #include <vantage/concepts/world.hpp>
 #include <vantage/core/bytes.hpp>
+#include <vantage/sim/field_world.hpp>
+#include <vantage/sim/random_field.hpp>
 
-#include "models.hpp"
+#include "maps.hpp"
+#include "policies.hpp"
 #include "suite.hpp"
 
 // What stop rules, clocks and worlds must mean.
@@ -91,24 +98,62 @@ TYPED_TEST(ClockContract, GoesOnFromWhereItWasSaved) {
   }
 }
 
-template <class M>
-class WorldContract : public testing::Test {
- protected:
-  typename MapFixture<M>::World world;
-};
-TYPED_TEST_SUITE(WorldContract, Suite<Maps>);
-
-TYPED_TEST(WorldContract, MeasuresWhatTheMapLearnsFrom) {
-  TypeParam map = MapFixture<TypeParam>::make();
-  for (const View& v : {nadir(2.5, 2.5, 2.5), nadir(10, 10, 2)}) {
-    const std::optional<typename TypeParam::Measurement> z = this->world.observe(v);
-    ASSERT_TRUE(z);
-    Rng rng;
-    EXPECT_NO_THROW(map.integrate(*z, rng));
-    if constexpr (Posed<typename TypeParam::Measurement>) {
-      EXPECT_NO_THROW(check_view(z->view, "measurement"));
+template <class WorldT, class MapT>
+struct WorldOf {
+  using World = WorldT;
+  using Map = MapT;
+  static WorldT make() {
+    if constexpr (std::same_as<WorldT, FieldWorld<>>) {
+      Rng rng(5);
+      return FieldWorld<>(random_field(rng, {.columns = 64, .rows = 64}), DeviationByHeight{}, Rng(6));
+    } else {
+      return WorldT{};
     }
   }
+};
+using Worlds = List<WorldOf<archetype::World, archetype::FullMap>, WorldOf<WavyWorld, OursMap>, WorldOf<FieldWorld<>, OursMap>>;
+
+template <class W>
+class WorldContract : public testing::Test {
+ protected:
+  /// What a map makes of two views.
+  static std::vector<std::byte> learnt(typename W::World& world) {
+    typename W::Map map = MapFixture<typename W::Map>::make();
+    for (const View& v : {nadir(2.5, 2.5, 2.5), nadir(10, 10, 2)}) {
+      const std::optional<typename W::Map::Measurement> z = world.observe(v);
+      if (!z) throw std::runtime_error("none");
+      if constexpr (Posed<typename W::Map::Measurement>) check_view(z->view, "measurement");
+      Rng rng;
+      map.integrate(*z, rng);
+    }
+    Sink sink;
+    map.save(sink);
+    return std::move(sink).take();
+  }
+};
+TYPED_TEST_SUITE(WorldContract, Suite<Worlds>);
+
+TYPED_TEST(WorldContract, MeasuresWhatTheMapLearnsFrom) {
+  auto world = TypeParam::make();
+  EXPECT_NO_THROW(this->learnt(world));
+}
+
+TYPED_TEST(WorldContract, TwoOfTheSameSeeTheSame) {
+  auto world = TypeParam::make(), other = TypeParam::make();
+  EXPECT_EQ(this->learnt(world), this->learnt(other));
+}
+
+TYPED_TEST(WorldContract, GoesOnFromWhereItWasSaved) {
+  auto world = TypeParam::make(), other = TypeParam::make();
+  (void)this->learnt(world);
+  if constexpr (Persistent<typename TypeParam::World>) {
+    Sink sink;
+    world.save(sink);
+    Source source(sink.bytes());
+    other.load(source);
+    source.done();
+  }  // one that saves nothing has nothing to remember
+  EXPECT_EQ(this->learnt(world), this->learnt(other));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <vantage/concepts/archetypes.hpp>
 #include <vantage/concepts/policy.hpp>
 
-#include "models.hpp"
+#include "policies.hpp"
 #include "suite.hpp"
 
 // What a router must mean: lengths to all goals at once, and paths that are as long as it said.

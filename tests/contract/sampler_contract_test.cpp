@@ -10,7 +10,7 @@
 #include <vantage/concepts/policy.hpp>
 #include <vantage/geometry/view.hpp>
 
-#include "models.hpp"
+#include "policies.hpp"
 #include "suite.hpp"
 
 // What a sampler must mean: valid views, one utility and one parent each if any, and the same ones for the same seed.

@@ -11,7 +11,7 @@
 #include <vantage/concepts/archetypes.hpp>
 #include <vantage/concepts/policy.hpp>
 
-#include "models.hpp"
+#include "policies.hpp"
 #include "suite.hpp"
 
 // What a selector must mean: one of the candidates, the lowest of equals, none when there is nothing; finite travel.

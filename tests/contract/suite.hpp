@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "models.hpp"
+#include "lists.hpp"
 
 namespace vantage::test {
 

@@ -12,7 +12,7 @@
 #include <vantage/concepts/policy.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 
-#include "models.hpp"
+#include "policies.hpp"
 #include "suite.hpp"
 
 // What a utility must mean: finite numbers that depend on the view, not on the batch, the order or the threads.

@@ -8,7 +8,8 @@
 #include <vantage/concepts/explain.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 
-#include "../contract/models.hpp"
+#include "../contract/maps.hpp"
+#include "../contract/policies.hpp"
 
 // What composes and what must not: the concepts over the full product of maps, utilities, samplers and selectors.
 namespace vantage::test {

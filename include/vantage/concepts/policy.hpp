@@ -73,7 +73,7 @@ class Score {
 
 /// What a sampler proposes; an empty set is legal.
 struct Candidates {
-  std::vector<View> views;
+  std::vector<View> views = {};
   std::vector<double> utilities = {};  ///< empty, or one per view already paid for
   std::vector<int> parent = {};        ///< empty, or the index of the view before (-1: root), for sequences
 };

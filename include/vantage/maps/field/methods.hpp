@@ -47,12 +47,14 @@ using ArIdp = IntegralGp<SquaredExponential, typename FieldPreset<Preset>::Indep
 /// AR-GPR-IK: full regression on all measurements with the integral kernel, uninteresting cells merge (Reid et al.).
 template <class Preset = DefaultFieldPreset, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using ArGprIk = IntegralGp<Kernel, CellAverage, Batch, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using ArGprIk =
+    IntegralGp<Kernel, CellAverage, Batch, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
 /// AR-BCM: a Bayesian committee machine over the measurements, uninteresting query points are pruned (Wang et al.).
 template <class Preset = DefaultFieldPreset, class Interest = detail::AboveThreshold<Preset>,
           SeparableKernel Kernel = SquaredExponential>
-using ArBcm = IntegralGp<Kernel, CellCentre, Committee, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
+using ArBcm =
+    IntegralGp<Kernel, CellCentre, Committee, detail::MergingOf<Preset, Interest>, detail::AdaptiveSensor<Preset>>;
 
 /// What a map is made for: the presets start planning missions from a prior mean at the threshold, to encourage
 /// exploration.

@@ -15,9 +15,9 @@
 
 namespace vantage {
 
-/// The prior covariance of any two cells of a tree, whatever their levels: what Prior is for the cells of the full depth.
-/// Two tables, one an axis, over the intervals of all levels (2 N - 1 of them for N cells an axis and 2 branches), so
-/// that a covariance is a product of two looked-up numbers. Immutable; thread-safe.
+/// The prior covariance of any two cells of a tree, whatever their levels: what Prior is for the cells of the full
+/// depth. Two tables, one an axis, over the intervals of all levels (2 N - 1 of them for N cells an axis and 2
+/// branches), so that a covariance is a product of two looked-up numbers. Immutable; thread-safe.
 class NodePrior {
  public:
   /// Throws Error for trees of more than 1024 cells an axis, whose tables would be too large.
@@ -38,20 +38,29 @@ class NodePrior {
   }
 
   /// K[rows, columns].
-  [[nodiscard]] Eigen::MatrixXd covariance(std::span<const NdTree::Leaf> rows, std::span<const NdTree::Leaf> columns) const {
+  [[nodiscard]] Eigen::MatrixXd covariance(std::span<const NdTree::Leaf> rows,
+                                           std::span<const NdTree::Leaf> columns) const {
     Eigen::MatrixXd k(static_cast<Eigen::Index>(rows.size()), static_cast<Eigen::Index>(columns.size()));
-    dense::for_tiles(k.cols(), [&](Eigen::Index begin, Eigen::Index count) {
-      for (Eigen::Index j = begin; j < begin + count; ++j) column(rows, columns[static_cast<std::size_t>(j)], 0, k.col(j).data());
-    }, 32);
+    dense::for_tiles(
+        k.cols(),
+        [&](Eigen::Index begin, Eigen::Index count) {
+          for (Eigen::Index j = begin; j < begin + count; ++j)
+            column(rows, columns[static_cast<std::size_t>(j)], 0, k.col(j).data());
+        },
+        32);
     return k;
   }
   /// The lower triangle of K[cells, cells]; above it, nothing is said.
   [[nodiscard]] Eigen::MatrixXd covariance(std::span<const NdTree::Leaf> cells) const {
     const auto n = static_cast<Eigen::Index>(cells.size());
     Eigen::MatrixXd k(n, n);
-    dense::for_tiles(n, [&](Eigen::Index begin, Eigen::Index count) {
-      for (Eigen::Index j = begin; j < begin + count; ++j) column(cells, cells[static_cast<std::size_t>(j)], static_cast<std::size_t>(j), k.col(j).data());
-    }, 32);
+    dense::for_tiles(
+        n,
+        [&](Eigen::Index begin, Eigen::Index count) {
+          for (Eigen::Index j = begin; j < begin + count; ++j)
+            column(cells, cells[static_cast<std::size_t>(j)], static_cast<std::size_t>(j), k.col(j).data());
+        },
+        32);
     return k;
   }
 
@@ -77,7 +86,9 @@ class NodePrior {
       int fine_first = coarse_first;
       for (int fine = coarse; fine <= depth; fine_first += tree.side(fine++)) {
         const int a = n / tree.side(coarse), b = n / tree.side(fine);
-        const auto distance = [&](int i, int j) { return static_cast<std::size_t>(std::abs((2 * i + 1) * a - (2 * j + 1) * b)); };
+        const auto distance = [&](int i, int j) {
+          return static_cast<std::size_t>(std::abs((2 * i + 1) * a - (2 * j + 1) * b));
+        };
         for (int j = tree.side(fine) - 1; j >= 0; --j) {
           const double c = prior.correlation(interval(coarse, 0), interval(fine, j));
           at[distance(0, j)] = std::abs(c) < 1e-100 ? 0 : c;  // denormal products slow every later factorisation

@@ -15,7 +15,8 @@ namespace vantage {
 struct Prior {
   double mean = 0, variance = 1;
   Eigen::MatrixXd kx, ky;  ///< resolution x resolution
-  std::function<double(const Interval&, const Interval&)> correlation = {};  ///< one axis' factor, for cells of any level
+  std::function<double(const Interval&, const Interval&)> correlation =
+      {};  ///< one axis' factor, for cells of any level
 
   template <class Cells, SeparableKernel K>
   static Prior make(const NdTree& tree, double mean, const K& kernel, Cells = {}) {

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <concepts>
+
+#include <vantage/concepts/archetypes.hpp>
+#include <vantage/core/units.hpp>
+#include <vantage/geometry/camera.hpp>
+#include <vantage/geometry/view.hpp>
+#include <vantage/loop/clocks.hpp>
+#include <vantage/loop/stop_rules.hpp>
+#include <vantage/planning/straight_line.hpp>
+#include <vantage/sampler/hemisphere.hpp>
+#include <vantage/sampler/lattice.hpp>
+#include <vantage/sampler/lawnmower.hpp>
+#include <vantage/sampler/pool.hpp>
+#include <vantage/sampler/spiral.hpp>
+#include <vantage/selector/arg_max.hpp>
+#include <vantage/selector/in_order.hpp>
+#include <vantage/selector/minus_cost.hpp>
+#include <vantage/selector/per_flight_time.hpp>
+#include <vantage/selector/travel_tradeoff.hpp>
+#include <vantage/utility/mean_uncertainty.hpp>
+#include <vantage/utility/uninformed.hpp>
+#include <vantage/utility/variance_reduction.hpp>
+#include <vantage/utility/view_distance.hpp>
+
+#include "lists.hpp"
+
+// Every model of every policy concept, and how to make one. A new policy is one line in a list, and one in `make` if it
+// has no default; the contract suites, the matrix and the static product follow.
+namespace vantage::test {
+
+using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
+                       Uninformed, archetype::ViewUtility, archetype::HistoryUtility, archetype::PreparedUtility>;
+using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, archetype::Sampler>;
+using Selectors = List<ArgMax, InOrder, PerFlightTime, MinusCost<>, TravelTradeoff<>, MinusCost<archetype::Router>,
+                       archetype::Selector>;
+using Routers = List<StraightLine, archetype::Router>;
+using StopRules = List<MissionTime, Measurements, Travel, CoverageReached, UtilityBelow, AnyOf<MissionTime, CoverageReached>,
+                       archetype::StopRule>;
+using Clocks = List<MeasuredClock, ModelledClock, WallClock, archetype::Clock>;
+
+template <class P>
+P make() {
+  const Box2 field = Lattice::field_20m();
+  if constexpr (std::same_as<P, MeanUncertainty>) return MeanUncertainty(Camera::from_fov(8, 6, deg(60)));
+  else if constexpr (std::same_as<P, Lattice>) return Lattice({.layers = {Layer::inside(field, 2, 5, 4), Layer::inside(field, 5, 2, 3)}});
+  else if constexpr (std::same_as<P, Lawnmower>) return Lawnmower({.area = field});
+  else if constexpr (std::same_as<P, Hemisphere>) return Hemisphere({.centre = {10, 10, 0}, .radius_m = 3, .candidates = 10});
+  else if constexpr (std::same_as<P, Spiral>) return Spiral({.centre = {10, 10, 0}, .radius_m = 3});
+  else if constexpr (std::same_as<P, Pool>) return Pool({nadir(2.5, 2.5, 2.5), nadir(10, 10, 2), nadir(17.5, 3, 5), nadir(19.9, 19.9, 1), nadir(40, 40, 2)});
+  else if constexpr (std::same_as<P, MissionTime>) return MissionTime(300);
+  else if constexpr (std::same_as<P, Measurements>) return Measurements(10);
+  else if constexpr (std::same_as<P, Travel>) return Travel(100);
+  else if constexpr (std::same_as<P, CoverageReached>) return CoverageReached(0.9);
+  else if constexpr (std::same_as<P, UtilityBelow>) return UtilityBelow(0.5);
+  else if constexpr (std::same_as<P, AnyOf<MissionTime, CoverageReached>>) return AnyOf{MissionTime(300), CoverageReached(0.9)};
+  else return P{};
+}
+
+/// Whether all that a sampler proposes looks straight down, as the field maps' sensor must.
+template <class Sampler>
+inline constexpr bool looks_down = !std::same_as<Sampler, Hemisphere> && !std::same_as<Sampler, Spiral>;
+
+}  // namespace vantage::test

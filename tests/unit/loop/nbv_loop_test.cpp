@@ -1,0 +1,330 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <vantage/concepts/archetypes.hpp>
+#include <vantage/loop/clocks.hpp>
+#include <vantage/loop/nbv_loop.hpp>
+#include <vantage/loop/stop_rules.hpp>
+#include <vantage/sampler/pool.hpp>
+#include <vantage/selector/in_order.hpp>
+#include <vantage/utility/mean_uncertainty.hpp>
+#include <vantage/utility/uninformed.hpp>
+
+namespace vantage {
+namespace {
+
+using ToyMap = archetype::FullMap;
+const std::vector<View> three = {nadir(-1, 0, 1), nadir(1, 0, 1), nadir(0.5, 0, 1)};
+
+auto toy_loop() { return NbvLoop{ToyMap{}, MeanUncertainty{}, archetype::Sampler{}, archetype::Selector{}}; }
+std::vector<std::byte> bytes(const auto&... parts) {
+  Sink sink;
+  (parts.save(sink), ...);
+  return std::move(sink).take();
+}
+
+TEST(NbvLoop, MeasuresTheFirstViewsThenPlans) {
+  auto loop = toy_loop();
+  archetype::World world;
+  const MissionState s = loop.run(world, View{}, three, Measurements(5), ModelledClock{}, Rng{7});
+  ASSERT_EQ(s.visited.size(), 5u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_place(s.visited[i], three[i]));
+  EXPECT_TRUE(same_place(s.here, s.visited.back()));
+  const double planned_m = distance_m(s.visited[2], s.visited[3]) + distance_m(s.visited[3], s.visited[4]);
+  EXPECT_DOUBLE_EQ(s.travelled_m, planned_m);
+}
+
+TEST(NbvLoop, PlansOnThePriorWithoutFirstViews) {
+  auto loop = toy_loop();
+  archetype::World world;
+  EXPECT_EQ(loop.run(world, View{}, {}, Measurements(4), ModelledClock{}, Rng{7}).visited.size(), 4u);
+}
+
+TEST(NbvLoop, GoesWhereTheMapIsUncertain) {
+  auto loop = toy_loop();
+  archetype::World world;
+  const MissionState s = loop.run(world, View{}, {}, Measurements(40), ModelledClock{}, Rng{7});
+  int left = 0;
+  for (const View& v : s.visited) left += v.position().x() < 0;
+  EXPECT_EQ(left, 20);  // always the side that was seen less
+}
+
+TEST(NbvLoop, TheSameSeedTheSameMission) {
+  const auto mission = [](std::uint64_t seed) {
+    auto loop = toy_loop();
+    archetype::World world;
+    ModelledClock clock;
+    const MissionState s = loop.run(world, View{}, {}, Measurements(10), clock, Rng{seed});
+    return bytes(loop.map, clock, s);
+  };
+  EXPECT_EQ(mission(1), mission(1));
+  EXPECT_NE(mission(1), mission(2));
+}
+
+/// Keeps what a checkpoint would hold after every measurement.
+struct Keeping {
+  std::vector<std::vector<std::byte>>* saved;
+  template <class Loop, class World, class Clock>
+  void completed(const Loop& loop, const World&, const Clock& clock, const MissionState& state) {
+    saved->push_back(bytes(loop.map, clock, state));
+  }
+};
+
+TEST(NbvLoop, ResumedAtAnyStepItEndsInTheSameBytes) {
+  std::vector<std::vector<std::byte>> saved;
+  auto loop = toy_loop();
+  archetype::World world;
+  ModelledClock clock;
+  const MissionState s = loop.run(world, View{}, three, MissionTime(30), clock, Rng{7}, Keeping{&saved});
+  const auto end = bytes(loop.map, clock, s);
+  ASSERT_GT(saved.size(), 8u);
+  for (std::size_t k = 0; k < saved.size(); ++k) {  // among the first views and after them
+    auto again = toy_loop();
+    ModelledClock other;
+    MissionState state;
+    Source source(saved[k]);
+    again.map.load(source);
+    other.load(source);
+    state.load(source);
+    source.done();
+    EXPECT_EQ(again.resume(world, state, three, MissionTime(30), other), StopReason::stop_rule);
+    EXPECT_EQ(bytes(again.map, other, state), end) << "resumed after measurement " << k + 1;
+  }
+}
+
+struct Watching {
+  std::vector<std::string>* log;
+  void started(const auto&, const Situation& q) { log->push_back(concat("started ", q.step)); }
+  void measured(const auto&, const Situation& q, const auto& step) {
+    log->push_back(concat("measured ", step.index, " ", q.step, step.plan ? " planned" : " first"));
+  }
+  void completed(const auto& loop, const auto&, const auto& clock, const MissionState& state) {
+    EXPECT_GT(clock.elapsed_s(), 0);
+    log->push_back(concat("completed ", state.visited.size(), " ", loop.map.coverage()));
+  }
+  void finished(const auto&, const Situation& q, StopReason reason) {
+    log->push_back(concat("finished ", q.step, " ", static_cast<int>(reason)));
+  }
+};
+struct OnlyFinished {
+  int* times;
+  void finished(const auto&, const Situation&, StopReason) { ++*times; }
+};
+struct Nothing {};
+
+TEST(NbvLoop, TellsItsObserversWhatTheyAskFor) {
+  std::vector<std::string> log;
+  int times = 0;
+  auto loop = toy_loop();
+  archetype::World world;
+  loop.run(world, View{}, Views(three).first(1), Measurements(2), ModelledClock{}, Rng{7}, Watching{&log}, Nothing{}, OnlyFinished{&times});
+  EXPECT_EQ(log, (std::vector<std::string>{"started 0", "measured 1 1 first", "completed 1 0.5", "measured 2 2 planned", "completed 2 1",
+                                           "finished 2 0"}));
+  EXPECT_EQ(times, 1);
+}
+
+struct Timing {
+  std::vector<std::array<double, 4>>* steps;
+  void measured(const auto&, const Situation& q, const auto& step) {
+    steps->push_back({step.planning_s, step.mapping_s, step.action_s, q.elapsed_s});
+  }
+};
+TEST(NbvLoop, AccountsForAllMissionTime) {
+  std::vector<std::array<double, 4>> steps;
+  auto loop = toy_loop();
+  archetype::World world;
+  const MissionState s = loop.run(world, View{}, Views(three).first(2), Measurements(6), ModelledClock({.mapping_s = 0.25, .planning_s = 0.5}),
+                                  Rng{7}, Timing{&steps});
+  ASSERT_EQ(steps.size(), 6u);
+  double sum_s = 0, action_s = 0;
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_DOUBLE_EQ(steps[i][0], i < 2 ? 0 : 0.5);
+    EXPECT_NEAR(steps[i][1], 0.25, 1e-12);
+    sum_s += steps[i][0] + steps[i][1] + steps[i][2];
+    action_s += steps[i][2];
+    EXPECT_NEAR(steps[i][3], sum_s, 1e-9);
+  }
+  EXPECT_NEAR(action_s, s.travelled_m, 1e-9);  // at 1 m/s
+}
+
+struct Ending {
+  int left;
+  std::optional<archetype::Look> observe(const View& v) {
+    if (left-- == 0) return std::nullopt;
+    return archetype::Look{v};
+  }
+};
+struct Reason {
+  StopReason* reason;
+  void finished(const auto&, const Situation&, StopReason r) { *reason = r; }
+};
+
+TEST(NbvLoop, EndsWithTheWorld) {
+  StopReason reason{};
+  auto loop = toy_loop();
+  Ending world{4};
+  EXPECT_EQ(loop.run(world, View{}, three, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.size(), 4u);
+  EXPECT_EQ(reason, StopReason::world_ended);
+  Ending empty{0};
+  EXPECT_TRUE(toy_loop().run(empty, View{}, three, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.empty());
+  EXPECT_EQ(reason, StopReason::world_ended);
+}
+
+TEST(NbvLoop, EndsWhenThereIsNothingToDo) {
+  StopReason reason{};
+  NbvLoop loop{archetype::Map{}, Uninformed{}, Pool{three}, archetype::Selector{}};
+  archetype::World world;
+  EXPECT_EQ(loop.run(world, View{}, {}, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.size(), 3u);
+  EXPECT_EQ(reason, StopReason::nothing_to_do);
+}
+
+TEST(NbvLoop, StopsAfterPlanningWhenNothingIsWorthIt) {
+  StopReason reason{};
+  auto loop = toy_loop();
+  archetype::World world;
+  ModelledClock clock({.mapping_s = 1, .planning_s = 1});
+  const MissionState s = loop.run(world, View{}, {}, UtilityBelow(0.4), clock, Rng{7}, Reason{&reason});
+  EXPECT_EQ(s.visited.size(), 4u);  // doubts 1, 1, 1/2, 1/2, then 1/3 on both sides
+  EXPECT_EQ(reason, StopReason::stop_rule);
+  EXPECT_EQ(clock.elapsed_s() - s.travelled_m, 4 + 5);  // planned five times
+}
+
+TEST(NbvLoop, ABudgetOfNothingMeasuresTheFirstViewsOnly) {
+  archetype::World world;
+  EXPECT_EQ(toy_loop().run(world, View{}, three, MissionTime(0), ModelledClock{}, Rng{7}).visited.size(), 3u);
+  EXPECT_EQ(toy_loop().run(world, View{}, {}, MissionTime(0), ModelledClock{}, Rng{7}).visited.size(), 0u);
+}
+
+/// A world that drifts, and one that is steered.
+struct Drifting {
+  std::vector<std::size_t> followed = {};
+  std::optional<archetype::Look> observe(View v) {
+    v.T_W_C.translation().y() += 0.25;
+    return archetype::Look{v};
+  }
+  void follow(const std::vector<View>& path) { followed.push_back(path.size()); }
+};
+struct ByWayOf {
+  template <Map M>
+  std::optional<Decision> select(const M&, const Situation& q, const Candidates& c, const Score&, Rng&) const {
+    return Decision{.index = 0, .path = {q.here, nadir(0, 0, 9), c.views[0]}, .travel_s = 1, .travel_m = 2};
+  }
+};
+
+TEST(NbvLoop, BelievesTheMeasurementAboutWhereItWas) {
+  Drifting world;
+  NbvLoop loop{archetype::Map{}, Uninformed{}, archetype::Sampler{}, ByWayOf{}};
+  const MissionState s = loop.run(world, View{}, Views(three).first(1), Measurements(3), ModelledClock{}, Rng{7});
+  EXPECT_DOUBLE_EQ(s.visited[0].position().y(), 0.25);
+  EXPECT_TRUE(same_place(s.here, s.visited.back()));
+  EXPECT_EQ(world.followed, (std::vector<std::size_t>{3, 3}));
+  EXPECT_EQ(s.travelled_m, 4);
+}
+
+// Policies that break their promises are found out, and the map is as it was.
+struct NotANumber {
+  template <Map M>
+  double operator()(const M&, const View& v) const { return v.position().x() > 0.25 ? std::nan("") : 1; }
+};
+struct TooFar {
+  template <Map M>
+  std::optional<Decision> select(const M&, const Situation&, const Candidates& c, const Score&, Rng&) const {
+    return Decision{.index = c.views.size()};
+  }
+};
+struct TooFewUtilities {
+  template <Map M>
+  Candidates sample(const M&, const Situation&, const Score&, Rng&) const { return {.views = three, .utilities = {1, 2}}; }
+};
+template <class Loop>
+std::string complaint(Loop loop) {
+  const auto before = bytes(loop.map);
+  Rng rng(1);
+  try {
+    loop.plan({}, rng);
+  } catch (const Error& e) {
+    EXPECT_EQ(bytes(loop.map), before);
+    return e.what();
+  }
+  return "";
+}
+TEST(NbvLoop, FindsOutBrokenPromises) {
+  EXPECT_NE(complaint(NbvLoop{ToyMap{}, NotANumber{}, Pool{three}, InOrder{}}).find("utility of candidate 1"), std::string::npos);
+  EXPECT_NE(complaint(NbvLoop{ToyMap{}, Uninformed{}, Pool{three}, TooFar{}}).find("the selector chose candidate 3"), std::string::npos);
+  EXPECT_NE(complaint(NbvLoop{ToyMap{}, Uninformed{}, TooFewUtilities{}, InOrder{}}).find("2 utilities"), std::string::npos);
+  archetype::World world;
+  View bad;
+  bad.T_W_C.linear() *= 3;
+  EXPECT_THROW(toy_loop().run(world, bad, {}, Measurements(1), ModelledClock{}, Rng{7}), Error);
+}
+
+/// Pays for its candidates itself: the utility must not be asked again.
+struct Paid {
+  template <Map M>
+  Candidates sample(const M&, const Situation&, const Score&, Rng&) const { return {.views = three, .utilities = {1, 7, 3}}; }
+};
+struct Forbidden {
+  template <Map M>
+  double operator()(const M&, const View&) const { throw Error("Forbidden", "asked"); }
+};
+TEST(NbvLoop, PlansStepByStep) {
+  NbvLoop loop{archetype::Map{}, Forbidden{}, Paid{}, archetype::Selector{}};
+  Rng rng(1);
+  const std::optional<Plan> plan = loop.plan({.here = three[0]}, rng);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->decision.index, 1u);
+  EXPECT_EQ(plan->utility, 7);
+  EXPECT_EQ(plan->best_utility, 7);
+  EXPECT_EQ(plan->candidates, 3u);
+  EXPECT_EQ(plan->decision.travel_m, 2);
+  EXPECT_TRUE(same_place(plan->view, three[1]));
+  NbvLoop in_order{archetype::Map{}, Forbidden{}, Paid{}, InOrder{}};
+  EXPECT_EQ(in_order.plan({}, rng)->utility, 1);
+  EXPECT_EQ(in_order.plan({}, rng)->best_utility, 7);
+}
+
+TEST(NbvLoop, TakesWorldsClocksAndStopRulesOfOnesOwn) {
+  auto loop = toy_loop();
+  archetype::World world;
+  archetype::Clock clock;
+  const auto stop = [](const auto& map, const Situation& q) { return map.coverage() == 1 || q.step > 50; };
+  const MissionState s = loop.run(world, View{}, {}, stop, clock, Rng{7});
+  EXPECT_EQ(s.visited.size(), 2u);
+  EXPECT_DOUBLE_EQ(clock.elapsed_s(), 4 + s.travelled_m);
+}
+
+/// What the policies see of the mission.
+struct Seeing {
+  std::vector<Situation>* seen;
+  template <Map M>
+  Candidates sample(const M&, const Situation& q, const Score&, Rng&) const {
+    seen->push_back(q);
+    return {.views = three};
+  }
+};
+TEST(NbvLoop, TellsThePoliciesHowTheMissionStands) {
+  std::vector<Situation> seen;
+  NbvLoop loop{archetype::Map{}, Uninformed{}, Seeing{&seen}, archetype::Selector{}};
+  archetype::World world;
+  loop.run(world, three[0], three, AnyOf{MissionTime(7), Measurements(6)}, ModelledClock({.mapping_s = 1, .planning_s = 1}), Rng{7});
+  ASSERT_GE(seen.size(), 2u);
+  EXPECT_EQ(seen[0].step, 3u);
+  EXPECT_EQ(seen[0].elapsed_s, 3);
+  EXPECT_EQ(seen[0].remaining_s, 4);
+  EXPECT_EQ(seen[0].best_utility, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(same_place(seen[0].here, three[2]));
+  EXPECT_EQ(seen[1].step, 4u);
+  EXPECT_EQ(seen[1].visited.size(), 4u);
+  EXPECT_EQ(seen[1].elapsed_s + seen[1].remaining_s, 7);
+}
+
+}  // namespace
+}  // namespace vantage
