@@ -83,7 +83,7 @@ decltype(auto) with_planned_method(std::string_view name, F&& f) {
   if (name == "fr_idp") return f.template operator()<FrIdp<Preset>>();
   if (name == "ar_idp") return f.template operator()<ArIdp<Preset>>();
   if (name == "fr_gpf") return f.template operator()<FrGpf<Preset>>();
-  if (name == "ours_latent") return f.template operator()<Ours<Preset, Latent>>();
+  if (name == "ours_latent") return f.template operator()<Ours<Preset, Latent<>>>();
   return f.template operator()<Ours<Preset>>();
 }
 
