@@ -3,6 +3,7 @@
 // Plain GP regression (eqs. 2.5 to 2.8): fit n points, then mean and variance at n others.
 #include <cmath>
 
+#include <vantage/core/rng.hpp>
 #include <vantage/maps/field/regression.hpp>
 
 #include "peak.hpp"
