@@ -64,3 +64,4 @@
 #include <vantage/loop/mission_state.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/loop/stop_rules.hpp>
+#include <vantage/version.hpp>
