@@ -116,7 +116,7 @@ class Mission {
       const double rmse = input_.held_out.empty() ? m.rmse : rmse_at(map, input_.held_out);
       return std::vector<Metric>{{"rmse", rmse}, {"rmse_hotspots", m.rmse_hotspots}, {"iou", m.iou}, {"cells", static_cast<double>(m.cells)}};
     });
-    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = 1}, recorder);
+    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = o_.checkpoint_s}, recorder);
     Progress progress(recorder.record(), std::cerr, {.budget_s = o_.budget_s, .budget_steps = o_.measurements, .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
 
     if (o_.resume && checkpoint.load(loop, world, clock, state))
