@@ -25,8 +25,7 @@ class Averages {
         const Eigen::Array2d centre(column + 0.5, row + 0.5);
         const int i = square(z.footprint.min().array() + pixel_m * centre);
         if (i < 0 || std::isnan(z.values(row, column))) continue;
-        sum_[i] += z.values(row, column);
-        count_[i] += 1;
+        mean_[i] += (z.values(row, column) - mean_[i]) / ++count_[i];
       }
   }
   [[nodiscard]] Box3 bounds() const { return {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(20, 20, 0)}; }
@@ -42,14 +41,13 @@ class Averages {
         if (i >= 0) out.uncertainty(v, u) = 1 / std::sqrt(1 + static_cast<float>(count_[i]));
       }
   }
-  [[nodiscard]] Eigen::Index unseen() const { return (count_ == 0).count(); }
+  [[nodiscard]] double hottest() const { return mean_.maxCoeff(); }
 
- private:
-  // The square of a metre that holds p; -1 outside.
+ private:  // squares of a metre; -1: outside
   static int square(const Eigen::Array2d& p) {
     return (p >= 0).all() && (p < 20).all() ? 20 * static_cast<int>(p.y()) + static_cast<int>(p.x()) : -1;
   }
-  Eigen::Array<double, 400, 1> sum_ = Eigen::Array<double, 400, 1>::Zero();
+  Eigen::Array<double, 400, 1> mean_ = Eigen::Array<double, 400, 1>::Zero();
   Eigen::Array<int, 400, 1> count_ = Eigen::Array<int, 400, 1>::Zero();
 };
 
@@ -57,5 +55,5 @@ int main() {
   FieldWorld world{random_field(Rng{1}), VarianceByHeight{}, Rng{2}};
   NbvLoop loop{Averages{}, MeanUncertainty{Camera::from_fov(20, 20, deg(90))}, Lattice{Lattice::thesis()}, ArgMax{}};
   loop.run(world, nadir(0, 0, 0), {}, MissionTime{100}, ModelledClock{}, Rng{7});
-  std::printf("%zd of 400 squares unseen\n", loop.map.unseen());
+  std::printf("the hottest square that it found: %.2f\n", loop.map.hottest());
 }
