@@ -13,5 +13,5 @@ install(EXPORT vantage NAMESPACE vantage:: FILE vantageTargets.cmake DESTINATION
 configure_package_config_file(cmake/vantageConfig.cmake.in vantageConfig.cmake INSTALL_DESTINATION ${config_dir})
 write_basic_package_version_file(vantageConfigVersion.cmake COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/vantageConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/vantageConfigVersion.cmake
-              cmake/Findstb.cmake DESTINATION ${config_dir})
+        DESTINATION ${config_dir})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -36,7 +36,7 @@ void candidates(benchmark::State& state, int depth) {
 
 using Sensor = CellSensor<DeviationGrowsWithHeight, SkipPartial>;
 using Dense = IntegralGp<SquaredExponential, CellAverage, Full<>, Merging<>, Sensor>;
-using LowRank = IntegralGp<SquaredExponential, CellAverage, Latent, Merging<>, Sensor>;
+using LowRank = IntegralGp<SquaredExponential, CellAverage, Latent<>, Merging<>, Sensor>;
 
 constexpr auto full = candidates<Dense>, latent = candidates<LowRank>;
 

@@ -36,8 +36,8 @@ void mission(benchmark::State& state, int depth) {
 
 using Dense = IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>, bench::Sensor>;
 using Adaptive = IntegralGp<SquaredExponential, CellAverage, Full<>, Merging<>, bench::Sensor>;
-using LowRank = IntegralGp<SquaredExponential, CellAverage, Latent, Merging<>, bench::Sensor>;
-using LowRankFixed = IntegralGp<SquaredExponential, CellAverage, Latent, Fixed<>, bench::Sensor>;
+using LowRank = IntegralGp<SquaredExponential, CellAverage, Latent<>, Merging<>, bench::Sensor>;
+using LowRankFixed = IntegralGp<SquaredExponential, CellAverage, Latent<>, Fixed<>, bench::Sensor>;
 
 void dense(benchmark::State& state, int depth) {
   mission<Dense>(state, depth);

@@ -47,7 +47,7 @@ class Mission {
   void run() const {
     const std::string& m = o_.method;
     if (m == "ours") measure<Ours<Preset>>();
-    else if (m == "latent") measure<Ours<Preset, Latent>>();
+    else if (m == "latent") measure<Ours<Preset, Latent<>>>();
     else if (m == "fr_gpf") measure<FrGpf<Preset>>();
     else if (m == "fr_idp") measure<FrIdp<Preset>>();
     else if (m == "ar_idp") measure<ArIdp<Preset>>();
@@ -104,12 +104,7 @@ class Mission {
 
   template <class Loop>
   void fly(Loop loop) const {
-    if (o_.clock == ClockKind::modelled) fly(std::move(loop), ModelledClock{});
-    else fly(std::move(loop), MeasuredClock{});
-  }
-
-  template <class Loop, class Clock>
-  void fly(Loop loop, Clock clock) const {
+    MissionClock clock(o_.clock);
     const ScalarField& truth = input_.truth;
     const auto interest = loop.map.interest();
     FieldWorld world(truth, WorldNoise<Preset>{.alpha = o_.alpha.value_or(FieldPreset<Preset>{}.alpha)}, Rng(o_.seed).fork(1),

@@ -32,6 +32,7 @@
 #include <vantage/maps/field/batch.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
 #include <vantage/maps/field/committee.hpp>
+#include <vantage/maps/field/decompress.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/full.hpp>
 #include <vantage/maps/field/integral_gp.hpp>

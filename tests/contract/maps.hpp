@@ -41,7 +41,7 @@ using IndependentMap = IntegralGp<SquaredExponential, CellAverage, Diagonal, Fix
 using IndependentMergingMap = IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>;
 using CarryMap = Carry<archetype::FullMap, archetype::Persistent<>>;
 
-using LatentMap = IntegralGp<SquaredExponential, CellAverage, Latent, Merging<>>;
+using LatentMap = IntegralGp<SquaredExponential, CellAverage, Latent<>, Merging<>>;
 using MaternMap = IntegralGp<Matern32, CellAverage, Full<>, Merging<>>;
 
 using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap,

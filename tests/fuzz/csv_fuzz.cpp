@@ -30,7 +30,7 @@ void check_columns(const vantage::CsvTable& table) {
       const auto column = table.column(i);
       require(column.size() == table.rows());
       for (const double v : column) require(std::isfinite(v) || std::isnan(v));
-      names.push_back("c" + std::to_string(i));
+      names.push_back(vantage::concat("c", i));
       columns.emplace_back(column.begin(), column.end());
     } catch (const vantage::Error&) {  // text
     }

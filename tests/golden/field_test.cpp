@@ -60,7 +60,8 @@ std::vector<FieldImage> images(const std::string& prefix) {
     all[i].view = nadir(p("x"), p("y"), p("h"));
     all[i].footprint = {Eigen::Vector2d(p("fov_xmin"), p("fov_ymin")), Eigen::Vector2d(p("fov_xmax"), p("fov_ymax"))};
     const Box2 expected = NadirSensor{}.footprint(all[i].view);
-    EXPECT_LT((all[i].footprint.min() - expected.min()).norm() + (all[i].footprint.max() - expected.max()).norm(), 1e-12);
+    EXPECT_LT((all[i].footprint.min() - expected.min()).norm() + (all[i].footprint.max() - expected.max()).norm(),
+              1e-12);
     all[i].values.setConstant(20, 20, std::nan(""));
   }
   for (std::size_t r = 0; r < pixels.rows(); ++r)

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include <vantage/core/error.hpp>
+#include <vantage/loop/clocks.hpp>
 #include <vantage/version.hpp>
 
 // What every mission's command line shares, and how every program ends.
@@ -50,6 +51,24 @@ struct MissionOptions {
   double travel_m = std::numeric_limits<double>::infinity();
   bool resume = false;
   std::vector<std::string> command = {};  ///< the words of the command line, for the report
+};
+
+/// The clock that --clock asked for: one type, so that a program's loops are compiled once.
+class MissionClock {
+ public:
+  explicit MissionClock(ClockKind kind, const ModelledClock::Config& costs = {}) : kind_(kind), modelled_(costs) {}
+  [[nodiscard]] double elapsed_s() const { return kind_ == ClockKind::real ? measured_.elapsed_s() : modelled_.elapsed_s(); }
+  void begin() { measured_.begin(); }
+  void mapped() { measured_.mapped(), modelled_.mapped(); }
+  void planned() { measured_.planned(), modelled_.planned(); }
+  void travelled(double s) { measured_.travelled(s), modelled_.travelled(s); }
+  void save(Sink& sink) const { kind_ == ClockKind::real ? measured_.save(sink) : modelled_.save(sink); }
+  void load(Source& source) { kind_ == ClockKind::real ? measured_.load(source) : modelled_.load(source); }
+
+ private:
+  ClockKind kind_;
+  MeasuredClock measured_;
+  ModelledClock modelled_;
 };
 
 inline std::string_view name_of(ClockKind clock) { return clock == ClockKind::real ? "real" : "modelled"; }

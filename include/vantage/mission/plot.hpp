@@ -53,7 +53,7 @@ namespace detail {
 struct Ticks {
   double low, high, step;
   Ticks(double from, double to, int wanted) {
-    if (!(to > from)) {  // a single value, or none at all
+    if (!(to - from > 1e-9 * std::max(std::abs(from), std::abs(to)))) {  // as good as a single value, or none at all
       if (!std::isfinite(from) || !std::isfinite(to)) from = 0, to = 1;
       else { const double pad = from == 0 ? 1 : 0.1 * std::abs(from); from -= pad, to += pad; }
     }

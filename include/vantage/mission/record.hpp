@@ -118,7 +118,10 @@ inline nlohmann::ordered_json to_json(const StepRecord& r) {
     return nlohmann::ordered_json::array({v.x() + 0.0, v.y() + 0.0, v.z() + 0.0});  // + 0.0: never "-0.0"
   };
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
-  for (const Metric& m : r.metrics) metrics[m.name] = m.value;
+  for (const Metric& m : r.metrics) {
+    if (m.value == std::floor(m.value) && std::abs(m.value) < 1e15) metrics[m.name] = static_cast<std::int64_t>(m.value);  // a count
+    else metrics[m.name] = m.value;
+  }
   return {{"step", r.index},
           {"view",
            {{"position", xyz(r.view.position())},

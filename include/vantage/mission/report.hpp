@@ -136,7 +136,8 @@ inline std::string html_of_config(const MissionRecord& record, const std::string
   };
   row("seed", record.seed);
   for (const auto& [key, value] : record.config.items()) row(key, value);
-  for (const auto& [key, value] : versions().items()) row(key, value);
+  const nlohmann::ordered_json libraries = versions();
+  for (const auto& [key, value] : libraries.items()) row(key, value);
   return s + "</tbody></table></div>\n";
 }
 

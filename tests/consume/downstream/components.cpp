@@ -5,6 +5,6 @@
 #include <CLI/CLI.hpp>
 #include <libqhull_r/qhull_ra.h>
 #include <nlohmann/json.hpp>
-#include <stb/stb_image_write.h>
+#include <png.h>
 
 int main() {}

@@ -56,8 +56,10 @@ TEST(NodePrior, IsTheKernelBetweenCellsOfAnyLevels) {
     for (std::size_t i = 0; i < cells.size(); ++i)
       for (std::size_t j = 0; j < cells.size(); ++j) {
         const auto &a = cells[i], &b = cells[j];
-        const double expected = kernel.variance * Rule::correlation(kernel, tree.x_interval(a.level, a.ix), tree.x_interval(b.level, b.ix)) *
-                                Rule::correlation(kernel, tree.y_interval(a.level, a.iy), tree.y_interval(b.level, b.iy));
+        const double expected =
+            kernel.variance *
+            Rule::correlation(kernel, tree.x_interval(a.level, a.ix), tree.x_interval(b.level, b.ix)) *
+            Rule::correlation(kernel, tree.y_interval(a.level, a.iy), tree.y_interval(b.level, b.iy));
         EXPECT_NEAR(k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), expected, 1e-13);
         EXPECT_EQ(prior(a, b), k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
         if (i >= j) { EXPECT_EQ(lower(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)), prior(a, b)); }
@@ -113,7 +115,8 @@ TEST(Batch, InfersFromMergedMeasurements) {
     std::vector<Box2> before;
     for (std::size_t i = 0; i < map.size(); ++i) before.push_back(map.cell(i));
     for (std::size_t k = 0; k < z.cells.size(); ++k)
-      history.push_back({before[z.cells[k]], z.value[static_cast<Eigen::Index>(k)], z.noise_variance[static_cast<Eigen::Index>(k)]});
+      history.push_back(
+          {before[z.cells[k]], z.value[static_cast<Eigen::Index>(k)], z.noise_variance[static_cast<Eigen::Index>(k)]});
     map.integrate(image, rng);
 
     const auto l = static_cast<Eigen::Index>(history.size());
@@ -128,7 +131,8 @@ TEST(Batch, InfersFromMergedMeasurements) {
     const Eigen::MatrixXd inverse = s.inverse();
     for (std::size_t i = 0; i < map.size(); ++i) {  // by linearity, merged cells are what regression says of them
       const Box2 box = map.cell(i);
-      const Eigen::VectorXd k = Eigen::VectorXd::NullaryExpr(l, [&](Eigen::Index j) { return covariance(box, history[static_cast<std::size_t>(j)].box); });
+      const Eigen::VectorXd k = Eigen::VectorXd::NullaryExpr(
+          l, [&](Eigen::Index j) { return covariance(box, history[static_cast<std::size_t>(j)].box); });
       EXPECT_NEAR(map.mean(i), c.prior_mean + k.dot(inverse * g), 1e-9);
       EXPECT_NEAR(map.variance(i), covariance(box, box) - k.dot(inverse * k), 1e-9);
     }
@@ -180,7 +184,8 @@ TEST(Committee, IsTrespsFormula) {
   for (const FieldImage& image : images()) {
     const CellMeasurements z = c.sensor.measure(map.tree(), image);
     Batch batch{Eigen::Matrix2Xd(2, static_cast<Eigen::Index>(z.cells.size())), z.value, z.noise_variance};
-    for (std::size_t k = 0; k < z.cells.size(); ++k) batch.centre.col(static_cast<Eigen::Index>(k)) = map.cell(z.cells[k]).center();
+    for (std::size_t k = 0; k < z.cells.size(); ++k)
+      batch.centre.col(static_cast<Eigen::Index>(k)) = map.cell(z.cells[k]).center();
     batches.push_back(batch);
     const std::size_t before = map.size();
     map.integrate(image, rng);
@@ -211,7 +216,8 @@ TEST(Committee, IsTrespsFormula) {
   EXPECT_GT(pruned, 50u);
 }
 
-// With all measured cells among the queried ones the committee is exact, however singular the prior: 32 x 32 at l = 2.36 m.
+// With all measured cells among the queried ones the committee is exact, however singular the prior: 32 x 32 at l
+// = 2.36 m.
 TEST(Committee, IsExactWhereNothingIsPruned) {
   using Machine = IntegralGp<SquaredExponential, CellCentre, Committee, Fixed<>>;
   using Filter = IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>>;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 // An exact oracle for whole missions: when every cell is measured once with the same noise variance r, the posterior is
-// that of one batch regression, K - K (K + r I)^-1 K, whose K = sigma^2 Ky (x) Kx is diagonal in the product of two small
-// eigenbases. It shares nothing with the filter but the kernel.
+// that of one batch regression, K - K (K + r I)^-1 K, whose K = sigma^2 Ky (x) Kx is diagonal in the product of two
+// small eigenbases. It shares nothing with the filter but the kernel.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -23,7 +23,8 @@ struct Oracle {
 };
 
 template <class Cells, class Kernel>
-Oracle oracle(const Kernel& kernel, const NdTree& tree, double prior_mean, double noise_variance, const Eigen::MatrixXd& y) {
+Oracle oracle(const Kernel& kernel, const NdTree& tree, double prior_mean, double noise_variance,
+              const Eigen::MatrixXd& y) {
   const int n = tree.resolution(), depth = tree.config().depth;
   const auto eigen = [&](auto&& interval) {
     Eigen::MatrixXd k(n, n);
@@ -34,7 +35,8 @@ Oracle oracle(const Kernel& kernel, const NdTree& tree, double prior_mean, doubl
   const auto x = eigen([&](int i) { return tree.x_interval(depth, i); });
   const auto v = eigen([&](int i) { return tree.y_interval(depth, i); });
   const Eigen::ArrayXXd lambda = kernel.variance * (v.eigenvalues() * x.eigenvalues().transpose()).array();
-  const Eigen::MatrixXd coefficients = v.eigenvectors().transpose() * (y.array() - prior_mean).matrix() * x.eigenvectors();
+  const Eigen::MatrixXd coefficients =
+      v.eigenvectors().transpose() * (y.array() - prior_mean).matrix() * x.eigenvectors();
   const Eigen::MatrixXd shrunk = coefficients.array() * lambda / (lambda + noise_variance);
   const Eigen::MatrixXd left = lambda * noise_variance / (lambda + noise_variance);
   return {(v.eigenvectors() * shrunk * x.eigenvectors().transpose()).array() + prior_mean,

@@ -127,7 +127,7 @@ TEST(IntegralGp, EqualsTheFilterWrittenDownSlowly) {
   expect_equal_to_slow_filter<Gp<Full<>, Merging<>>>(2, 3, 1e-11);
   expect_equal_to_slow_filter<Gp<Full<>, Fixed<>>>(3, 2, 1e-11);
   expect_equal_to_slow_filter<Gp<Full<float>, Fixed<>>>(3, 2, 2e-4);
-  expect_equal_to_slow_filter<Gp<Latent, Merging<>>>(4, 2, 1e-7);
+  expect_equal_to_slow_filter<Gp<Latent<>, Merging<>>>(4, 2, 1e-7);
 }
 
 TEST(IntegralGp, MergesWhatIsDullAndKeepsTheRest) {
@@ -169,7 +169,7 @@ TEST(IntegralGp, BelowIsTheMirrorOfAbove) {
 template <class Map>
 class ForecastOf : public testing::Test {};
 using Forecasters = testing::Types<Gp<Full<>, Fixed<>>, Gp<Full<>, Merging<>>, Gp<Diagonal, Fixed<>>,
-                                   Gp<Latent, Fixed<>>, Gp<Latent, Merging<>>>;
+                                   Gp<Latent<>, Fixed<>>, Gp<Latent<>, Merging<>>>;
 TYPED_TEST_SUITE(ForecastOf, Forecasters);
 
 // Eq. 3.13 by its definition: measure, and look what the targets lost. A map that merges is measured with its copy
@@ -241,7 +241,7 @@ TYPED_TEST(ForecastOf, GivenViewsCountAsMeasured) {
 
 TEST(Latent, IsTheFullBeliefWithinTheErrorThatTheUserAllows) {
   auto full = make<Gp<Full<>, Merging<>>>(6);
-  auto latent = make<Gp<Latent, Merging<>>>(6);
+  auto latent = make<Gp<Latent<>, Merging<>>>(6);
   Rng a(4), b(4), unused;
   for (int k = 0; k < 16; ++k) {
     full.integrate(image(lawnmower(k), a), unused);
@@ -258,7 +258,7 @@ TEST(Latent, IsTheFullBeliefWithinTheErrorThatTheUserAllows) {
 
 TEST(Latent, KeepsItsBound) {
   for (const double allowed : {1e-2, 1e-4, 1e-6}) {
-    using Low = Gp<Latent, Fixed<>>;
+    using Low = Gp<Latent<>, Fixed<>>;
     typename Low::Config c;
     c.tree.depth = 4;
     c.sensor.alpha = 0.05;
@@ -284,7 +284,7 @@ TEST(Latent, KeepsItsBound) {
 template <class Map>
 class IntegralGpOf : public testing::Test {};
 using Maps = testing::Types<
-    Gp<Full<>, Merging<>>, Gp<Full<float>, Fixed<>>, Gp<Diagonal, Merging<>>, Gp<Latent, Merging<>>,
+    Gp<Full<>, Merging<>>, Gp<Full<float>, Fixed<>>, Gp<Diagonal, Merging<>>, Gp<Latent<>, Merging<>>,
     Gp<Full<>, Merging<Above<DeviationMargin>, true>, CellAverage, CellSensor<DeviationGrowsWithHeight, SkipPartial>>>;
 TYPED_TEST_SUITE(IntegralGpOf, Maps);
 

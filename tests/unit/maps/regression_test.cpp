@@ -46,9 +46,9 @@ struct Case {
 };
 template <class C>
 struct Regression : testing::Test {};
-using Cases = testing::Types<Case<SquaredExponential, Isotropic>, Case<SquaredExponential, Product>, Case<Matern12, Isotropic>,
-                             Case<Matern12, Product>, Case<Matern32, Isotropic>, Case<Matern32, Product>,
-                             Case<Matern52, Isotropic>, Case<Matern52, Product>>;
+using Cases = testing::Types<Case<SquaredExponential, Isotropic>, Case<SquaredExponential, Product>,
+                             Case<Matern12, Isotropic>, Case<Matern12, Product>, Case<Matern32, Isotropic>,
+                             Case<Matern32, Product>, Case<Matern52, Isotropic>, Case<Matern52, Product>>;
 TYPED_TEST_SUITE(Regression, Cases);
 
 TYPED_TEST(Regression, IsTheDefinition) {
@@ -59,7 +59,8 @@ TYPED_TEST(Regression, IsTheDefinition) {
     const Eigen::Index n = 300;  // more than one tile
     const Points x = random_points(n, dimension, rng), q = random_points(270, dimension, rng);
     const Eigen::VectorXd y = Eigen::VectorXd::NullaryExpr(n, [&] { return rng.normal(); });
-    const typename GpRegression<Kernel, Form>::Config c{.kernel = {.variance = 2, .length_m = 1.5}, .noise_variance = 0.05, .mean = 0.3};
+    const typename GpRegression<Kernel, Form>::Config c{
+        .kernel = {.variance = 2, .length_m = 1.5}, .noise_variance = 0.05, .mean = 0.3};
     const GpRegression<Kernel, Form> gp(c, x, y);
     const Prediction p = gp.predict(q);
 
@@ -73,7 +74,9 @@ TYPED_TEST(Regression, IsTheDefinition) {
     EXPECT_LT((gp.predict_mean(q) - mean).cwiseAbs().maxCoeff(), 1e-9);
 
     const Eigen::VectorXd r = y.array() - c.mean;
-    const double likelihood = -0.5 * r.dot(inverse * r) - 0.5 * k.partialPivLu().matrixLU().diagonal().array().abs().log().sum() - 0.5 * n * std::log(2 * std::acos(-1.0));
+    const double likelihood = -0.5 * r.dot(inverse * r) -
+                              0.5 * k.partialPivLu().matrixLU().diagonal().array().abs().log().sum() -
+                              0.5 * n * std::log(2 * std::acos(-1.0));
     EXPECT_NEAR(gp.log_marginal_likelihood(), likelihood, 1e-7);
   }
 }
@@ -131,7 +134,9 @@ TEST(GpRegression, GivesTheSameBitsWithAnyNumberOfThreads) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   const auto run = [&](int threads) {
     Prediction p;
-    tbb::task_arena(threads).execute([&] { p = GpRegression<>({.kernel = {1, 1}, .noise_variance = 0.1}, x, y).predict(q); });
+    tbb::task_arena(threads).execute([&] {
+      p = GpRegression<>({.kernel = {1, 1}, .noise_variance = 0.1}, x, y).predict(q);
+    });
     return p;
   };
   const Prediction one = run(1), two = run(2), eight = run(8);
@@ -145,7 +150,9 @@ TEST(GpRegression, RefusesBadInput) {
   Rng rng(6);
   const Points x = random_points(5, 2, rng);
   const Eigen::VectorXd y = Eigen::VectorXd::Ones(5);
-  const auto make = [](GpRegression<>::Config c, const Points& points, const Eigen::VectorXd& values) { GpRegression<> gp(c, points, values); };
+  const auto make = [](GpRegression<>::Config c, const Points& points, const Eigen::VectorXd& values) {
+    GpRegression<> gp(c, points, values);
+  };
   EXPECT_THROW(make({.noise_variance = 0}, x, y), Error);
   EXPECT_THROW(make({.mean = std::nan("")}, x, y), Error);
   EXPECT_THROW(make({.kernel = {-1, 1}}, x, y), Error);

@@ -48,7 +48,7 @@ TEST(Recorder, WritesTheMission) {
   EXPECT_EQ(prior["view"]["position"], Json({4.0, 4.0, 2.0}));
   EXPECT_EQ(prior["view"]["forward"], Json({0.0, 0.0, -1.0}));
   EXPECT_EQ(prior["view"]["up"], Json({0.0, 1.0, 0.0}));
-  EXPECT_EQ(prior["metrics"]["variance"], 64.0);
+  EXPECT_EQ(prior["metrics"]["variance"], 64);
   EXPECT_TRUE(prior["metrics"]["undefined"].is_null());
   EXPECT_EQ(json["steps"][1]["planned"], false);
   EXPECT_TRUE(json["steps"][1]["utility"].is_null());

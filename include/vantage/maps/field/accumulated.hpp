@@ -63,14 +63,20 @@ struct MeasurementHistory {
     source.get(level);
     source.get(ix);
     source.get(iy);
-    source.get(h.value);
-    source.get(h.noise_variance);
+    Eigen::MatrixXd y, r;  // a hostile file may hold any shape
+    source.get(y);
+    source.get(r);
     source.get(end);
     const std::size_t n = level.size();
     const auto rows = static_cast<Eigen::Index>(n);
-    bool sound = ix.size() == n && iy.size() == n && h.value.rows() == rows && h.noise_variance.rows() == rows &&
-                 h.value.allFinite() && h.noise_variance.allFinite() && (h.noise_variance.array() > 0).all() &&
-                 std::is_sorted(end.begin(), end.end()) && (end.empty() ? n == 0 : end.back() == n);
+    bool sound = ix.size() == n && iy.size() == n && y.rows() == rows && r.rows() == rows &&
+                 (n == 0 || (y.cols() == 1 && r.cols() == 1));
+    if (sound) {
+      h.value = y.reshaped();
+      h.noise_variance = r.reshaped();
+    }
+    sound = sound && h.value.allFinite() && h.noise_variance.allFinite() && (h.noise_variance.array() > 0).all() &&
+            std::is_sorted(end.begin(), end.end()) && (end.empty() ? n == 0 : end.back() == n);
     for (std::size_t k = 0; sound && k < n; ++k) {
       sound = level[k] >= 0 && level[k] <= tree.config().depth && ix[k] >= 0 && iy[k] >= 0 &&
               ix[k] < tree.side(level[k]) && iy[k] < tree.side(level[k]);
@@ -84,14 +90,28 @@ struct MeasurementHistory {
   }
 };
 
+/// What regression says about n cells: their means, and their covariance as K - R^T R or, where that is cheaper, as R^T
+/// R.
+struct CellPosterior {
+  Eigen::VectorXd mean;
+  Eigen::MatrixXd root;
+  bool reduces_prior = true;
+
+  /// Variance of a cell, or of an average over cells; `prior` is its prior variance, `x` its column of the root.
+  template <class Column>
+  [[nodiscard]] double variance(double prior, const Column& x) const {
+    return reduces_prior ? std::max(0.0, prior - x.squaredNorm()) : x.squaredNorm();
+  }
+};
+
 /// A belief that keeps every measurement and infers the cells from scratch after each update, eqs. 2.7 and 2.8 with
-/// cells for points. With l measurements and n cells: l^3 / 3 + n l^2 flops an update, and what Rule adds; memory O(l +
-/// n) between updates. `Rule` says how measurements covary (see Batch and Committee), and what becomes of them when
-/// cells merge:
+/// cells for points. `Rule` says how, and what becomes of measurements when cells merge (see Batch and Committee):
 ///
-///     Eigen::MatrixXd covariance(prior, history, leaves, jitter) const;   // of the measured values, lower triangle
+///     CellPosterior infer(prior, prior_mean, history, cells, jitter) const;
 ///     void merge(history, tree, merge) const;
 ///     static constexpr bool infers_after_merge;      // or else merged cells' beliefs are averaged
+///
+/// Between updates, memory is O(l + n) for l measurements and n cells.
 template <class Rule>
 class Accumulated {
   using Index = Eigen::Index;
@@ -103,29 +123,22 @@ class Accumulated {
   };
 
   Accumulated(const Config& config, const NdTree& tree, const Prior& prior)
-      : prior_(tree, prior), prior_mean_(prior.mean), jitter_(checked(config) * prior.variance) {
-    state_.mean = Eigen::VectorXd::Constant(static_cast<Index>(tree.size()), prior.mean);
-    state_.variance.resize(state_.mean.size());
-    for (std::size_t i = 0; i < tree.size(); ++i) state_.variance[static_cast<Index>(i)] = prior_(tree[i], tree[i]);
+      : prior_(tree, prior),
+        prior_mean_(prior.mean),
+        jitter_(checked(config) * prior.variance),
+        mean_(Eigen::VectorXd::Constant(static_cast<Index>(tree.size()), prior.mean)),
+        variance_(mean_.size()) {
+    for (std::size_t i = 0; i < tree.size(); ++i) variance_[static_cast<Index>(i)] = prior_(tree[i], tree[i]);
   }
 
-  [[nodiscard]] double mean(std::size_t i) const { return state_.mean[static_cast<Index>(i)]; }
-  [[nodiscard]] double variance(std::size_t i) const { return state_.variance[static_cast<Index>(i)]; }
-  /// A parent is a query like any other.
+  [[nodiscard]] double mean(std::size_t i) const { return mean_[static_cast<Index>(i)]; }
+  [[nodiscard]] double variance(std::size_t i) const { return variance_[static_cast<Index>(i)]; }
+  /// Variances of weighted averages over leaves; only within an update, between `fuse` and `settle`.
   [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
-                                                     std::span<const double>) const {
-    std::vector<NdTree::Leaf> cells;
-    for (const ParentCell& p : parents) cells.push_back(p.cell);
-    const Eigen::VectorXd v = variances(cells, explained(factor_, history_, cells));
-    return {v.data(), v.data() + v.size()};
-  }
-  /// Posterior covariance of the leaves, n x n.
-  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
-    const std::vector<NdTree::Leaf> cells = leaves(tree);
-    Eigen::MatrixXd k = prior_.covariance(cells);
-    if (history_.size() != 0) dense::add_gram<double>(k, explained(factorised(history_, cells), history_, cells), -1.0);
-    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
-    return k;
+                                                     std::span<const double> weight) const {
+    std::vector<double> out;
+    for (const ParentCell& p : parents) out.push_back(average_variance(p.leaves, weight));
+    return out;
   }
   [[nodiscard]] const MeasurementHistory& history() const { return history_; }
 
@@ -134,10 +147,7 @@ class Accumulated {
   void fuse(const NdTree& tree, const CellMeasurements& z) {
     MeasurementHistory history = history_;
     history.append(tree, z);
-    const std::vector<NdTree::Leaf> cells = leaves(tree);
-    Eigen::MatrixXd factor = factorised(history, cells);
-    state_ = infer(factor, history, cells);
-    factor_ = std::move(factor);
+    infer(history, leaves(tree));
     history_ = std::move(history);
   }
   void merge(const NdTree& tree, const Merge& m) {
@@ -146,19 +156,23 @@ class Accumulated {
     std::vector<NdTree::Leaf> cells;
     for (const LeafGroup& g : m.groups) cells.push_back(tree.parent_of(g));
     if constexpr (Rule::infers_after_merge) {
-      state_ = infer(factorised(history, cells), history, cells);
+      infer(history, cells);
     } else {
-      Cells merged;
-      merged.mean.setZero(static_cast<Index>(cells.size()));
-      for (std::size_t g = 0; g < cells.size(); ++g)
+      Eigen::VectorXd mean = Eigen::VectorXd::Zero(static_cast<Index>(cells.size())), variance(mean.size());
+      for (std::size_t g = 0; g < cells.size(); ++g) {
         for (std::size_t i = m.groups[g].first; i < m.groups[g].last; ++i)
-          merged.mean[static_cast<Index>(g)] += m.weight[i] * mean(i);
-      merged.variance = variances(cells, explained(factor_, history_, cells));
-      state_ = std::move(merged);
+          mean[static_cast<Index>(g)] += m.weight[i] * this->mean(i);
+        variance[static_cast<Index>(g)] = average_variance(m.groups[g], m.weight);
+      }
+      mean_ = std::move(mean);
+      variance_ = std::move(variance);
     }
     history_ = std::move(history);
   }
-  void settle() { factor_.resize(0, 0); }
+  void settle() {
+    posterior_ = {};
+    cells_ = {};
+  }
 
   /// Conditions the posterior covariance of the leaves on measurements to come.
   class Forecaster {
@@ -182,7 +196,7 @@ class Accumulated {
       dense::add_gram<double>(m_, Eigen::MatrixXd(k_(target_, Eigen::all)), 1.0);
       m_.template triangularView<Eigen::StrictlyUpper>() = m_.transpose();
     }
-    /// tr(S^-1 M[H, H]).
+    /// tr(S^-1 M[H, H]), M = K[:, HS] K[HS, :].
     [[nodiscard]] double reduction(const CellMeasurements& z) const {
       if (z.cells.empty() || target_.empty()) return 0;
       const std::vector<Index> h(z.cells.begin(), z.cells.end());
@@ -205,80 +219,90 @@ class Accumulated {
 
   [[nodiscard]] std::size_t bytes() const {
     return prior_.bytes() + history_.bytes() +
-           static_cast<std::size_t>(2 * state_.mean.size() + factor_.size()) * sizeof(double);
+           static_cast<std::size_t>(2 * mean_.size() + posterior_.root.size()) * sizeof(double) +
+           cells_.capacity() * sizeof(NdTree::Leaf);
   }
   void save(Sink& sink) const {
     history_.save(sink);
-    sink.put(state_.mean);
-    sink.put(state_.variance);
+    sink.put(mean_);
+    sink.put(variance_);
   }
   void load(Source& source, const NdTree& tree) {
     MeasurementHistory history;
     history.load(source, tree);
-    Cells state;
-    source.get(state.mean);
-    source.get(state.variance);
-    const auto n = static_cast<Index>(tree.size());
-    if (state.mean.rows() != n || state.variance.rows() != n || !state.mean.allFinite() || !state.variance.allFinite())
-      throw Error(source.where(), concat("a belief about ", state.mean.rows(), " cells"),
-                  concat(n, " finite means and variances"));
+    Eigen::VectorXd mean, variance;
+    load_column(source, mean, tree.size());
+    load_column(source, variance, tree.size());
     history_ = std::move(history);
-    state_ = std::move(state);
-    factor_.resize(0, 0);
+    mean_ = std::move(mean);
+    variance_ = std::move(variance);
+    settle();
   }
 
  private:
-  struct Cells {
-    Eigen::VectorXd mean, variance;
-  };
-
   static double checked(const Config& c) {
     Check check("Accumulated::Config");
     check(c.jitter >= 0 && c.jitter <= 1e-3, "jitter", c.jitter, "0 to 1e-3");
     check.done();
     return c.jitter;
   }
+  static void load_column(Source& source, Eigen::VectorXd& v, std::size_t n) {
+    Eigen::MatrixXd m;  // a hostile file may hold any shape
+    source.get(m);
+    if (m.cols() != 1 || m.rows() != static_cast<Index>(n) || !m.allFinite())
+      throw Error(source.where(), concat(m.rows(), " x ", m.cols(), " values"), concat(n, " finite ones"));
+    v = m;
+  }
   static std::vector<NdTree::Leaf> leaves(const NdTree& tree) {
     std::vector<NdTree::Leaf> cells(tree.size());
     for (std::size_t i = 0; i < cells.size(); ++i) cells[i] = tree[i];
     return cells;
   }
-  // L L^T = the measurements' covariance.
-  [[nodiscard]] Eigen::MatrixXd factorised(const MeasurementHistory& h, std::span<const NdTree::Leaf> cells) const {
-    Eigen::MatrixXd s = rule_.covariance(prior_, h, cells, jitter_);
-    s.diagonal().array() += h.noise_variance.array() + jitter_;
-    dense::cholesky<double>(s, "Accumulated::fuse");
-    return s;
-  }
-  // L^-1 K[measurements, cells].
-  [[nodiscard]] Eigen::MatrixXd explained(const Eigen::MatrixXd& factor, const MeasurementHistory& h,
-                                          std::span<const NdTree::Leaf> cells) const {
-    Eigen::MatrixXd v = prior_.covariance(h.cell, cells);
-    dense::solve_lower<double>(factor, v);
-    return v;
-  }
-  [[nodiscard]] Eigen::VectorXd variances(std::span<const NdTree::Leaf> cells, const Eigen::MatrixXd& v) const {
-    Eigen::VectorXd out(v.cols());
-    for (Index i = 0; i < v.cols(); ++i) {
+  void infer(const MeasurementHistory& history, std::vector<NdTree::Leaf> cells) {
+    CellPosterior p = rule_.infer(prior_, prior_mean_, history, cells, jitter_);
+    Eigen::VectorXd variance(p.mean.size());
+    for (Index i = 0; i < variance.size(); ++i) {
       const NdTree::Leaf& c = cells[static_cast<std::size_t>(i)];
-      out[i] = std::max(0.0, prior_(c, c) - v.col(i).squaredNorm());
+      variance[i] = p.variance(prior_(c, c), p.root.col(i));
     }
-    return out;
+    mean_ = p.mean;
+    variance_ = std::move(variance);
+    posterior_ = std::move(p);
+    cells_ = std::move(cells);
   }
-  [[nodiscard]] Cells infer(const Eigen::MatrixXd& factor, const MeasurementHistory& h,
-                            std::span<const NdTree::Leaf> cells) const {
-    const Eigen::MatrixXd v = explained(factor, h, cells);
-    Eigen::VectorXd g = h.value.array() - prior_mean_;
-    factor.template triangularView<Eigen::Lower>().solveInPlace(g);
-    return {(v.transpose() * g).array() + prior_mean_, variances(cells, v)};
+  // Posterior covariance of the leaves, n x n, inferred anew.
+  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
+    const std::vector<NdTree::Leaf> cells = leaves(tree);
+    Eigen::MatrixXd k = prior_.covariance(cells);
+    if (history_.size() != 0) {
+      const CellPosterior p = rule_.infer(prior_, prior_mean_, history_, cells, jitter_);
+      if (!p.reduces_prior) k.setZero();
+      dense::add_gram<double>(k, p.root, p.reduces_prior ? -1.0 : 1.0);
+    }
+    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
+    return k;
+  }
+  // q C q^T for a weighted average over leaves.
+  [[nodiscard]] double average_variance(const LeafGroup& g, std::span<const double> weight) const {
+    const auto first = static_cast<Index>(g.first), count = static_cast<Index>(g.last - g.first);
+    const Eigen::Map<const Eigen::VectorXd> q(weight.data() + first, count);
+    double prior = 0;
+    if (posterior_.reduces_prior)
+      for (std::size_t j = g.first; j < g.last; ++j) {
+        double below = 0;
+        for (std::size_t i = j + 1; i < g.last; ++i) below += weight[i] * prior_(cells_[i], cells_[j]);
+        prior += weight[j] * (weight[j] * prior_(cells_[j], cells_[j]) + 2 * below);
+      }
+    return posterior_.variance(prior, posterior_.root.middleCols(first, count) * q);
   }
 
   NodePrior prior_;
   double prior_mean_, jitter_;
   Rule rule_;
   MeasurementHistory history_;
-  Cells state_;
-  Eigen::MatrixXd factor_;  // of the last update's measurements, until it is settled
+  Eigen::VectorXd mean_, variance_;
+  CellPosterior posterior_;  // of the last update's cells, until it is settled
+  std::vector<NdTree::Leaf> cells_;
 };
 
 }  // namespace vantage

@@ -31,7 +31,7 @@ namespace vantage {
 /// Adaptive-resolution Gaussian-process map of a scalar field (chapter 3), by policies:
 /// - Kernel: SquaredExponential (eq. 3.4) or a Matern, any SeparableKernel
 /// - Cells: what a cell stands for, CellAverage (eq. 3.1) or CellCentre
-/// - Belief: the covariance, Full<>, Latent or Diagonal
+/// - Belief: the covariance, Full<>, Latent<> or Diagonal
 /// - Resolution: Merging<> (section 3.1.5) or Fixed<>, with the interest
 /// - Sensor: CellSensor<> (section 3.1.3)
 ///

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -28,15 +29,16 @@ namespace detail {
 /// The leading part of a separable prior as Phi Phi^T (K- is a Kronecker product, so that its eigenvectors are
 /// products). A cell's row of Phi is itself a product, phi[(a, b)] = fx[a] fy[b], at every level of the tree: a merge
 /// averages rows. Modes (a, b) with b < count[a] are kept, a staircase, and stand at offset[a] + b.
+template <class T>
 struct SeparableBasis {
-  std::vector<Eigen::MatrixXd> fx, fy;  ///< per level of the tree: cells of the level x modes
+  std::vector<dense::Matrix<T>> fx, fy;  ///< per level of the tree: cells of the level x modes
   std::vector<Eigen::Index> count, offset;
   Eigen::Index rank = 0;
   double lost = 0;  ///< the largest eigenvalue of K- that was left out, or their working precision if that is larger
 
   SeparableBasis(const NdTree& tree, const Prior& prior, double tolerance) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ex(prior.kx), ey(prior.ky);
-    const Eigen::VectorXd lx = prior.variance * ex.eigenvalues().reverse(), ly = ey.eigenvalues().reverse();
+    const Eigen::SelfAdjointEigenSolver<dense::Matrix<T>> ex(prior.kx), ey(prior.ky);
+    const Eigen::VectorX<T> lx = prior.variance * ex.eigenvalues().reverse(), ly = ey.eigenvalues().reverse();
     const double precision = std::numeric_limits<double>::epsilon() * static_cast<double>(ly.size()) * lx[0] * ly[0];
     tolerance = std::max(tolerance, precision);
     lost = precision;
@@ -49,8 +51,8 @@ struct SeparableBasis {
       count.push_back(b);
       rank += b;
     }
-    const auto modes = [&](const auto& eigen, const Eigen::VectorXd& value, Eigen::Index n) {
-      std::vector<Eigen::MatrixXd> f(static_cast<std::size_t>(tree.config().depth) + 1);
+    const auto modes = [&](const auto& eigen, const Eigen::VectorX<T>& value, Eigen::Index n) {
+      std::vector<dense::Matrix<T>> f(static_cast<std::size_t>(tree.config().depth) + 1);
       f.back() =
           eigen.eigenvectors().rowwise().reverse().leftCols(n) * value.head(n).cwiseMax(0).cwiseSqrt().asDiagonal();
       for (std::size_t level = f.size() - 1; level-- > 0;) {  // a parent is the average of its children
@@ -70,7 +72,7 @@ struct SeparableBasis {
   [[nodiscard]] auto y(const NdTree::Leaf& c) const { return fy[static_cast<std::size_t>(c.level)].row(c.iy); }
   [[nodiscard]] Eigen::Index modes() const { return static_cast<Eigen::Index>(count.size()); }
   /// phi of one cell.
-  void row(const NdTree::Leaf& c, Eigen::Ref<Eigen::VectorXd> phi) const {
+  void row(const NdTree::Leaf& c, Eigen::Ref<Eigen::VectorX<T>> phi) const {
     const auto cx = x(c);
     const auto cy = y(c);
     for (Eigen::Index a = 0; a < modes(); ++a) {
@@ -81,17 +83,19 @@ struct SeparableBasis {
 };
 
 /// Cells that share a row of the tree (level and iy), so that what depends on fy is computed once for all of them.
+template <class T>
 struct CellRow {
   std::vector<std::size_t> member;  ///< positions in the list of cells that was grouped
-  Eigen::MatrixXd x;                ///< modes x members: their fx
+  dense::Matrix<T> x;               ///< modes x members: their fx
 };
+template <class T>
 struct CellRows {
-  std::vector<CellRow> row;
-  Eigen::MatrixXd y;  ///< modes x rows: fy
+  std::vector<CellRow<T>> row;
+  dense::Matrix<T> y;  ///< modes x rows: fy
 
   /// Groups cells [0, n), cell(k) being a leaf or a parent.
   template <class CellOf>
-  CellRows(const SeparableBasis& basis, std::size_t n, CellOf&& cell) {
+  CellRows(const SeparableBasis<T>& basis, std::size_t n, CellOf&& cell) {
     std::map<std::pair<int, int>, std::vector<std::size_t>> groups;
     for (std::size_t k = 0; k < n; ++k) {
       const NdTree::Leaf c = cell(k);
@@ -100,7 +104,7 @@ struct CellRows {
     y.resize(basis.count.front(), static_cast<Eigen::Index>(groups.size()));
     for (auto& [key, member] : groups) {
       y.col(static_cast<Eigen::Index>(row.size())) = basis.y(cell(member.front())).transpose();
-      Eigen::MatrixXd x(basis.modes(), static_cast<Eigen::Index>(member.size()));
+      dense::Matrix<T> x(basis.modes(), static_cast<Eigen::Index>(member.size()));
       for (std::size_t k = 0; k < member.size(); ++k)
         x.col(static_cast<Eigen::Index>(k)) = basis.x(cell(member[k])).transpose();
       row.push_back({std::move(member), std::move(x)});
@@ -120,7 +124,12 @@ struct CellRows {
 ///
 /// One update costs r^3 flops, and r^2 for each row of cells held; memory 16 r^2 bytes, and 16 bytes a cell.
 /// Thread-safe const members.
+template <class T = double>
 class Latent {
+  static_assert(std::same_as<T, double>,
+                "vantage: Latent inverts matrices that single precision cannot; it is a template so that only programs "
+                "that use it compile it");
+
  public:
   static constexpr std::string_view name = "latent";
   struct Config {
@@ -140,15 +149,15 @@ class Latent {
   [[nodiscard]] double lost() const { return basis_.lost; }
   /// Posterior covariance of two leaves.
   [[nodiscard]] double covariance(const NdTree& tree, std::size_t i, std::size_t j) const {
-    Eigen::VectorXd a(basis_.rank), b(basis_.rank);
+    Eigen::VectorX<T> a(basis_.rank), b(basis_.rank);
     basis_.row(tree[i], a);
     basis_.row(tree[j], b);
-    return a.dot(covariance_ * b);
+    return a.dot(product(covariance_, b).col(0));
   }
   [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
                                                      std::span<const double>) const {
     std::vector<double> out(parents.size());
-    variances(detail::CellRows(basis_, parents.size(), [&](std::size_t k) { return parents[k].cell; }), out.data());
+    variances(detail::CellRows<T>(basis_, parents.size(), [&](std::size_t k) { return parents[k].cell; }), out.data());
     return out;
   }
 
@@ -188,7 +197,7 @@ class Latent {
   [[nodiscard]] std::size_t bytes() const {
     std::size_t numbers = 2 * static_cast<std::size_t>(covariance_.size()) + 2 * static_cast<std::size_t>(mean_.size());
     for (const auto& f : {&basis_.fx, &basis_.fy})
-      for (const Eigen::MatrixXd& level : *f) numbers += static_cast<std::size_t>(level.size());
+      for (const dense::Matrix<T>& level : *f) numbers += static_cast<std::size_t>(level.size());
     return numbers * sizeof(double);
   }
   void save(Sink& sink) const {
@@ -197,7 +206,7 @@ class Latent {
   }
   void load(Source& source, const NdTree& tree) {
     State next = state_;
-    Eigen::MatrixXd evidence;
+    dense::Matrix<T> evidence;
     source.get(next.information);
     source.get(evidence);
     if (next.information.rows() != basis_.rank || next.information.cols() != basis_.rank ||
@@ -214,39 +223,41 @@ class Latent {
   using Index = Eigen::Index;
 
   struct State {
-    Eigen::MatrixXd information;  // J, lower triangle
-    Eigen::VectorXd evidence;     // h
+    dense::Matrix<T> information;  // J, lower triangle
+    Eigen::VectorX<T> evidence;    // h
 
-    explicit State(const detail::SeparableBasis& basis)
-        : information(Eigen::MatrixXd::Identity(basis.rank, basis.rank)), evidence(Eigen::VectorXd::Zero(basis.rank)) {}
+    explicit State(const detail::SeparableBasis<T>& basis)
+        : information(dense::Matrix<T>::Identity(basis.rank, basis.rank)),
+          evidence(Eigen::VectorX<T>::Zero(basis.rank)) {}
 
     // J += sum_i phi_i phi_i^T / r_i. A row of cells adds X (x) fy fy^T with X = sum fx fx^T / r, so that a block (a,
     // a') of J gains FY diag(X[a, a'] of each row) FY^T: r^2 flops a row of cells, not a cell.
     template <class Innovation>
-    void add(const detail::SeparableBasis& basis, const NdTree& tree, const CellMeasurements& z,
+    void add(const detail::SeparableBasis<T>& basis, const NdTree& tree, const CellMeasurements& z,
              const Innovation& innovation) {
-      const detail::CellRows cells(basis, z.cells.size(), [&](std::size_t k) { return tree[z.cells[k]]; });
+      const detail::CellRows<T> cells(basis, z.cells.size(), [&](std::size_t k) { return tree[z.cells[k]]; });
       const Index m = basis.modes(), rows = cells.y.cols();
-      Eigen::MatrixXd gram(m * m, rows), weighted(m, rows);
+      dense::Matrix<T> gram = dense::Matrix<T>::Zero(m * m, rows), weighted = dense::Matrix<T>::Zero(m, rows);
       for (Index g = 0; g < rows; ++g) {
-        const detail::CellRow& row = cells.row[static_cast<std::size_t>(g)];
-        Eigen::VectorXd precision(row.x.cols()), value(row.x.cols());
+        const detail::CellRow<T>& row = cells.row[static_cast<std::size_t>(g)];
+        dense::Matrix<T> scaled = row.x;
         for (std::size_t k = 0; k < row.member.size(); ++k) {
-          const auto i = static_cast<Index>(row.member[k]);
-          precision[static_cast<Index>(k)] = 1 / z.noise_variance[i];
-          value[static_cast<Index>(k)] = innovation[i] / z.noise_variance[i];
+          const auto i = static_cast<Index>(row.member[k]), at = static_cast<Index>(k);
+          scaled.col(at) /= z.noise_variance[i];
+          weighted.col(g) += innovation[i] * scaled.col(at);
         }
-        gram.col(g).reshaped(m, m).noalias() = row.x * precision.asDiagonal() * row.x.transpose();
-        weighted.col(g).noalias() = row.x * value;
+        dense::add_nt<T>(Eigen::Map<dense::Matrix<T>>(gram.col(g).data(), m, m), scaled, row.x, 1);
       }
       parallel_for(static_cast<std::size_t>(m), [&](std::size_t a) {
         const Index ia = static_cast<Index>(a), na = basis.count[a];
-        evidence.segment(basis.offset[a], na) += cells.y.topRows(na) * weighted.row(ia).transpose();
+        for (Index g = 0; g < rows; ++g)
+          evidence.segment(basis.offset[a], na) += weighted(ia, g) * cells.y.col(g).head(na);
+        dense::Matrix<T> scaled(na, rows);
         for (std::size_t b = 0; b <= a; ++b) {
           const Index nb = basis.count[b];
-          information.block(basis.offset[a], basis.offset[b], na, nb).noalias() +=
-              cells.y.topRows(na) * gram.row(ia + m * static_cast<Index>(b)).asDiagonal() *
-              cells.y.topRows(nb).transpose();
+          for (Index g = 0; g < rows; ++g)
+            scaled.col(g) = gram(ia + m * static_cast<Index>(b), g) * cells.y.col(g).head(na);
+          dense::add_nt<T>(information.block(basis.offset[a], basis.offset[b], na, nb), scaled, cells.y.topRows(nb), 1);
         }
       });
     }
@@ -263,18 +274,18 @@ class Latent {
       CellMeasurements all;
       for (std::size_t i = 0; i < target.size(); ++i)
         if (target[i]) all.cells.push_back(i);
-      all.noise_variance = Eigen::VectorXd::Ones(static_cast<Index>(all.cells.size()));
+      all.noise_variance = Eigen::VectorX<T>::Ones(static_cast<Index>(all.cells.size()));
       State q(belief.basis_);
       q.information.setZero();
-      if (!all.cells.empty()) q.add(belief.basis_, tree, all, Eigen::VectorXd::Zero(all.noise_variance.size()));
-      target_ = q.information.selfadjointView<Eigen::Lower>();
+      if (!all.cells.empty()) q.add(belief.basis_, tree, all, Eigen::VectorX<T>::Zero(all.noise_variance.size()));
+      target_ = q.information.template selfadjointView<Eigen::Lower>();
     }
     void given(const CellMeasurements& z) {
-      if (!z.cells.empty()) state_.add(belief_->basis_, *tree_, z, Eigen::VectorXd::Zero(z.noise_variance.size()));
+      if (!z.cells.empty()) state_.add(belief_->basis_, *tree_, z, Eigen::VectorX<T>::Zero(z.noise_variance.size()));
     }
     void prepare() {
       covariance_ = inverse(state_.information);
-      middle_.noalias() = covariance_ * target_ * covariance_;
+      middle_ = product(covariance_, product(target_, covariance_));
       before_ = covariance_.cwiseProduct(target_).sum();
     }
     [[nodiscard]] double reduction(const CellMeasurements& z) const {
@@ -282,21 +293,21 @@ class Latent {
       const auto l = static_cast<Index>(z.cells.size());
       if (l >= belief_->rank()) {
         State after = state_;
-        after.add(belief_->basis_, *tree_, z, Eigen::VectorXd::Zero(l));
+        after.add(belief_->basis_, *tree_, z, Eigen::VectorX<T>::Zero(l));
         return before_ - inverse(after.information).cwiseProduct(target_).sum();
       }
-      Eigen::MatrixXd phi(belief_->rank(), l);
+      dense::Matrix<T> phi(belief_->rank(), l);
       for (Index k = 0; k < l; ++k) belief_->basis_.row((*tree_)[z.cells[static_cast<std::size_t>(k)]], phi.col(k));
-      Eigen::MatrixXd s = phi.transpose() * (covariance_ * phi);
+      dense::Matrix<T> s = product(phi, product(covariance_, phi));
       s.diagonal() += z.noise_variance;
-      return detail::trace_of_quotient<double>(s, phi.transpose() * (middle_ * phi));
+      return detail::trace_of_quotient<T>(s, product(phi, product(middle_, phi)));
     }
 
    private:
     const Latent* belief_;
     const NdTree* tree_;
     State state_;
-    Eigen::MatrixXd target_, covariance_, middle_;
+    dense::Matrix<T> target_, covariance_, middle_;
     double before_ = 0;
   };
 
@@ -309,31 +320,39 @@ class Latent {
     check.done();
     return c.variance_error / (2 * (1 + prior_variance / c.least_noise_variance));
   }
-  static Eigen::MatrixXd inverse(Eigen::MatrixXd information) {
+  // A^T B.
+  static dense::Matrix<T> product(const dense::ConstRef<T>& a, const dense::ConstRef<T>& b) {
+    dense::Matrix<T> c = dense::Matrix<T>::Zero(a.cols(), b.cols());
+    dense::add_tn<T>(c, a, b, 1);
+    return c;
+  }
+  static dense::Matrix<T> inverse(dense::Matrix<T> information) {
     dense::cholesky<double>(information, "Latent");
-    Eigen::MatrixXd c;
+    dense::Matrix<T> c;
     dense::inverse_from_cholesky<double>(information, c);
     return c;
   }
 
   // C = J^-1, then mean and variance of every leaf.
   void refresh(const NdTree& tree) {
-    Eigen::MatrixXd covariance = inverse(state_.information);
+    dense::Matrix<T> covariance = inverse(state_.information);
     const auto n = static_cast<Index>(tree.size());
-    Eigen::VectorXd mean(n), variance(n);
+    Eigen::VectorX<T> mean(n), variance(n);
     covariance_.swap(covariance);
-    const detail::CellRows cells(basis_, tree.size(), [&](std::size_t i) { return tree[i]; });
+    const detail::CellRows<T> cells(basis_, tree.size(), [&](std::size_t i) { return tree[i]; });
     variances(cells, variance.data());
-    const Eigen::VectorXd z = covariance_ * state_.evidence;
-    Eigen::MatrixXd along_x(basis_.modes(), cells.y.cols());  // sum over b of z[(a, b)] fy[b]
-    for (Index a = 0; a < basis_.modes(); ++a) {
-      const auto k = static_cast<std::size_t>(a);
-      along_x.row(a) = z.segment(basis_.offset[k], basis_.count[k]).transpose() * cells.y.topRows(basis_.count[k]);
-    }
+    const Eigen::VectorX<T> z = product(covariance_, state_.evidence);
+    const Index m = basis_.modes();
+    Eigen::VectorX<T> along_x(m);  // sum over b of z[(a, b)] fy[b]
     for (std::size_t g = 0; g < cells.row.size(); ++g) {
-      const Eigen::VectorXd value = cells.row[g].x.transpose() * along_x.col(static_cast<Index>(g));
+      for (Index a = 0; a < m; ++a) {
+        const auto k = static_cast<std::size_t>(a);
+        along_x[a] =
+            z.segment(basis_.offset[k], basis_.count[k]).dot(cells.y.col(static_cast<Index>(g)).head(basis_.count[k]));
+      }
       for (std::size_t k = 0; k < cells.row[g].member.size(); ++k)
-        mean[static_cast<Index>(cells.row[g].member[k])] = prior_mean_ + value[static_cast<Index>(k)];
+        mean[static_cast<Index>(cells.row[g].member[k])] =
+            prior_mean_ + cells.row[g].x.col(static_cast<Index>(k)).dot(along_x);
     }
     mean_.swap(mean);
     variance_.swap(variance);
@@ -341,15 +360,15 @@ class Latent {
 
   // phi^T C phi of every cell: C is contracted with fy of each row of cells from both sides, 2 r^2 flops a row, which
   // leaves an m x m matrix for the row; then with fx of each cell.
-  void variances(const detail::CellRows& cells, double* out) const {
+  void variances(const detail::CellRows<T>& cells, double* out) const {
     const Index m = basis_.modes(), rows = cells.y.cols();
     if (rows == 0) return;
-    std::vector<Eigen::MatrixXd> contracted(static_cast<std::size_t>(m));  // [a'](a, row), a <= a'
+    std::vector<dense::Matrix<T>> contracted(static_cast<std::size_t>(m));  // [a'](a, row), a <= a'
     parallel_for(static_cast<std::size_t>(m), [&](std::size_t order) {
       const std::size_t b = static_cast<std::size_t>(m) - 1 - order;
       const Index above = basis_.offset[b] + basis_.count[b];
-      const Eigen::MatrixXd half =
-          covariance_.block(0, basis_.offset[b], above, basis_.count[b]) * cells.y.topRows(basis_.count[b]);
+      const dense::Matrix<T> half =  // C is symmetric
+          product(covariance_.block(basis_.offset[b], 0, basis_.count[b], above), cells.y.topRows(basis_.count[b]));
       contracted[b].resize(m, rows);
       for (std::size_t a = 0; a <= b; ++a)
         contracted[b].row(static_cast<Index>(a)) = half.middleRows(basis_.offset[a], basis_.count[a])
@@ -358,22 +377,22 @@ class Latent {
                                                        .sum();
     });
     parallel_for(cells.row.size(), [&](std::size_t g) {
-      const detail::CellRow& row = cells.row[g];
-      Eigen::MatrixXd c(m, m);
+      const detail::CellRow<T>& row = cells.row[g];
+      dense::Matrix<T> c(m, m);
       for (Index b = 0; b < m; ++b)
         for (Index a = 0; a <= b; ++a)
           c(a, b) = c(b, a) = contracted[static_cast<std::size_t>(b)](a, static_cast<Index>(g));
-      const Eigen::MatrixXd cx = c * row.x;
+      const dense::Matrix<T> cx = product(c, row.x);  // c is symmetric
       for (std::size_t k = 0; k < row.member.size(); ++k)
         out[row.member[k]] = row.x.col(static_cast<Index>(k)).dot(cx.col(static_cast<Index>(k)));
     });
   }
 
   double prior_mean_;
-  detail::SeparableBasis basis_;
+  detail::SeparableBasis<T> basis_;
   State state_;
-  Eigen::MatrixXd covariance_;  // C = J^-1
-  Eigen::VectorXd mean_, variance_;
+  dense::Matrix<T> covariance_;  // C = J^-1
+  Eigen::VectorX<T> mean_, variance_;
 };
 
 }  // namespace vantage
