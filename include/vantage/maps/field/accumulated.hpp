@@ -140,18 +140,6 @@ class Accumulated {
     for (const ParentCell& p : parents) out.push_back(average_variance(p.leaves, weight));
     return out;
   }
-  /// Posterior covariance of the leaves, n x n, inferred anew.
-  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
-    const std::vector<NdTree::Leaf> cells = leaves(tree);
-    Eigen::MatrixXd k = prior_.covariance(cells);
-    if (history_.size() != 0) {
-      const CellPosterior p = rule_.infer(prior_, prior_mean_, history_, cells, jitter_);
-      if (!p.reduces_prior) k.setZero();
-      dense::add_gram<double>(k, p.root, p.reduces_prior ? -1.0 : 1.0);
-    }
-    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
-    return k;
-  }
   [[nodiscard]] const MeasurementHistory& history() const { return history_; }
 
   /// Adds measurements and infers all cells. Throws Error, changing nothing, if the measurements' covariance is not
@@ -281,6 +269,18 @@ class Accumulated {
     variance_ = std::move(variance);
     posterior_ = std::move(p);
     cells_ = std::move(cells);
+  }
+  // Posterior covariance of the leaves, n x n, inferred anew.
+  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
+    const std::vector<NdTree::Leaf> cells = leaves(tree);
+    Eigen::MatrixXd k = prior_.covariance(cells);
+    if (history_.size() != 0) {
+      const CellPosterior p = rule_.infer(prior_, prior_mean_, history_, cells, jitter_);
+      if (!p.reduces_prior) k.setZero();
+      dense::add_gram<double>(k, p.root, p.reduces_prior ? -1.0 : 1.0);
+    }
+    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
+    return k;
   }
   // q C q^T for a weighted average over leaves.
   [[nodiscard]] double average_variance(const LeafGroup& g, std::span<const double> weight) const {

@@ -90,10 +90,10 @@ struct Decompressed {
 ///
 ///     m* = mu + K*c Kcc^-1 (m - mu),    P* = K** - K*c Kcc^-1 (Kcc - P) Kcc^-1 Kc*.
 ///
-/// Needs a map of cell averages whose belief has a covariance (Full, Latent, Batch). `jitter`, in shares of the prior
-/// variance, is added to Kcc's diagonal: the more, the more steadily; what it smooths away is below
-/// jitter |Kcc^-1 (m - mu)|. n^3 / 3 + 2 n^2 q flops for n cells and q boxes; n (n + q) numbers. Throws Error on bad
-/// boxes, or a prior that is not positive definite to working precision with this jitter.
+/// Needs a map of cell averages whose belief says how cells covary: `covariance_matrix(tree)` or `covariance(i, j)`.
+/// `jitter`, in shares of the prior variance, is added to Kcc's diagonal; it smooths away up to jitter |Kcc^-1 (m -
+/// mu)| of a cell's deviation. n^3 / 3 + 3 n^2 q flops for n cells and q boxes; 2 n^2 + n q numbers. Throws Error on
+/// bad boxes, or a prior that is not positive definite to working precision with this jitter.
 template <SeparableKernel Kernel, class Cells, class Belief, class Resolution, class Sensor>
 Decompressed decompress(const IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>& map, std::span<const Box2> boxes,
                         double jitter = 1e-8) {
@@ -102,7 +102,7 @@ Decompressed decompress(const IntegralGp<Kernel, Cells, Belief, Resolution, Sens
   constexpr bool whole = requires { map.belief().covariance_matrix(map.tree()); };
   static_assert(
       whole || requires { map.belief().covariance(std::size_t{}, std::size_t{}); },
-      "decompress: the map's belief must know covariances: Full, Latent or Batch, not Diagonal");
+      "decompress: the map's belief must say how cells covary: Full has covariance(i, j), Diagonal has not");
   Check check("decompress");
   check(jitter > 0 && jitter <= 1e-3, "jitter", jitter, "0 (excluded) to 1e-3");
   check.done();
@@ -131,7 +131,7 @@ Decompressed decompress(const IntegralGp<Kernel, Cells, Belief, Resolution, Sens
   Eigen::VectorXd alpha = Eigen::VectorXd::NullaryExpr(
       n, [&](Eigen::Index i) { return map.mean(static_cast<std::size_t>(i)) - c.prior_mean; });
   lower.solveInPlace(alpha);
-  lower.transpose().solveInPlace(alpha);
+  lower.adjoint().solveInPlace(alpha);
 
   Decompressed out;
   out.mean.resize(static_cast<Eigen::Index>(boxes.size()));
@@ -144,7 +144,7 @@ Decompressed decompress(const IntegralGp<Kernel, Cells, Belief, Resolution, Sens
         out.mean.segment(begin, count) = (k.transpose() * alpha).array() + c.prior_mean;
         Eigen::MatrixXd x = k;
         lower.solveInPlace(x);
-        lower.transpose().solveInPlace(x);
+        lower.adjoint().solveInPlace(x);
         const Eigen::VectorXd lost = x.cwiseProduct(explained * x).colwise().sum();
         for (Eigen::Index j = 0; j < count; ++j) {
           const Box2& b = boxes[static_cast<std::size_t>(begin + j)];

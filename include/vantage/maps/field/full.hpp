@@ -41,27 +41,20 @@ template <class T>
 double trace_of_quotient(dense::Matrix<T>& s, const dense::Matrix<T>& m) {
   constexpr Eigen::Index size = 64;
   const Eigen::Index l = s.rows();
-  const Eigen::LLT<Eigen::Ref<dense::Matrix<T>>> llt(s);
-  if (llt.info() != Eigen::Success)
-    throw Error("forecast", "the innovation covariance is not positive definite to working precision", "more noise");
-  dense::Matrix<T> x = dense::Matrix<T>::Zero(l, l), tile;
-  for (Eigen::Index j = 0; j < l; j += size) {
-    auto columns = x.block(j, j, l - j, std::min(size, l - j));
-    columns.topRows(columns.cols()).setIdentity();
-    s.bottomRightCorner(l - j, l - j).template triangularView<Eigen::Lower>().solveInPlace(columns);
-  }
+  dense::cholesky<T>(s, "forecast");
+  const dense::Matrix<T> x = dense::inverse_lower<T>(s, size);
+  dense::Matrix<T> tile;
   double trace = 0;
   for (Eigen::Index j = 0; j < l; j += size)
     for (Eigen::Index i = j; i < l; i += size) {
       const Eigen::Index ni = std::min(size, l - i), nj = std::min(size, l - j);
-      tile.noalias() = x.block(i, i, l - i, ni).transpose() * x.block(i, j, l - i, nj);
-      const auto mij = m.block(i, j, ni, nj);
-      if (i != j)
-        trace += 2 * static_cast<double>(tile.cwiseProduct(mij).sum());
-      else
-        for (Eigen::Index c = 0; c < nj; ++c)
-          trace += static_cast<double>(tile(c, c) * mij(c, c) +
-                                       2 * tile.col(c).tail(nj - c - 1).dot(mij.col(c).tail(nj - c - 1)));
+      tile.setZero(ni, nj);
+      dense::add_tn<T>(tile, x.block(i, i, l - i, ni), x.block(i, j, l - i, nj), T(1));
+      for (Eigen::Index c = 0; c < nj; ++c) {
+        const Eigen::Index from = i == j ? c : 0;  // the lower triangle; what lies off the diagonal counts twice
+        trace += 2 * static_cast<double>(tile.col(c).tail(ni - from).dot(m.col(j + c).segment(i + from, ni - from)));
+        if (i == j) trace -= static_cast<double>(tile(c, c) * m(j + c, j + c));
+      }
     }
   return trace;
 }
@@ -122,9 +115,9 @@ class Full {
         const LeafGroup& g = parents[k].leaves;
         out[k] = settled_average_variance(g, weight);
         if (w_.cols() == 0) continue;
-        const auto first = static_cast<Index>(g.first), count = static_cast<Index>(g.last - g.first);
-        const Eigen::Map<const Eigen::VectorXd> q(weight.data() + g.first, count);
-        out[k] -= static_cast<double>((w_.middleCols(first, count) * q.template cast<T>()).squaredNorm());
+        Eigen::VectorX<T> wq = Eigen::VectorX<T>::Zero(w_.rows());
+        for (std::size_t i = g.first; i < g.last; ++i) wq += static_cast<T>(weight[i]) * w_.col(static_cast<Index>(i));
+        out[k] -= static_cast<double>(wq.squaredNorm());
       }
     });
     return out;
@@ -139,10 +132,12 @@ class Full {
     dense::Matrix<T> g(static_cast<Index>(z.cells.size()), 1);
     for (std::size_t a = 0; a < z.cells.size(); ++a)
       g(static_cast<Index>(a), 0) = static_cast<T>(z.value[static_cast<Index>(a)] - mean(z.cells[a]));
-    s.template triangularView<Eigen::Lower>().solveInPlace(g);
-    dense::for_tiles(w.cols(), [&](Index i, Index count) {
-      mean_.segment(i, count) += (w.middleCols(i, count).transpose() * g).template cast<double>();
-      variance_.segment(i, count) -= w.middleCols(i, count).colwise().squaredNorm().transpose().template cast<double>();
+    dense::solve_lower_serial<T>(s, g);
+    dense::for_tiles(w.cols(), [&](Index begin, Index count) {
+      for (Index i = begin; i < begin + count; ++i) {
+        mean_[i] += static_cast<double>(w.col(i).dot(g.col(0)));
+        variance_[i] -= static_cast<double>(w.col(i).squaredNorm());
+      }
     });
     w_ = std::move(w);
   }
@@ -196,7 +191,7 @@ class Full {
     k_.shrink(n, n);
     if (w_.cols() != 0) w_.conservativeResize(Eigen::NoChange, n);
     variance_ = k_.map().diagonal().template cast<double>();
-    if (w_.cols() != 0) variance_ -= w_.colwise().squaredNorm().transpose().template cast<double>();
+    for (Index i = 0; i < w_.cols(); ++i) variance_[i] -= static_cast<double>(w_.col(i).squaredNorm());
   }
 
   /// Applies the pending update: K- - W W^T, the n^2 l part of the work.

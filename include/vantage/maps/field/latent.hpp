@@ -152,7 +152,7 @@ class Latent {
     Eigen::VectorX<T> a(basis_.rank), b(basis_.rank);
     basis_.row(tree[i], a);
     basis_.row(tree[j], b);
-    return a.dot(covariance_ * b);
+    return a.dot(product(covariance_, b).col(0));
   }
   [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
                                                      std::span<const double>) const {
@@ -237,26 +237,27 @@ class Latent {
              const Innovation& innovation) {
       const detail::CellRows<T> cells(basis, z.cells.size(), [&](std::size_t k) { return tree[z.cells[k]]; });
       const Index m = basis.modes(), rows = cells.y.cols();
-      dense::Matrix<T> gram(m * m, rows), weighted(m, rows);
+      dense::Matrix<T> gram = dense::Matrix<T>::Zero(m * m, rows), weighted = dense::Matrix<T>::Zero(m, rows);
       for (Index g = 0; g < rows; ++g) {
         const detail::CellRow<T>& row = cells.row[static_cast<std::size_t>(g)];
-        Eigen::VectorX<T> precision(row.x.cols()), value(row.x.cols());
+        dense::Matrix<T> scaled = row.x;
         for (std::size_t k = 0; k < row.member.size(); ++k) {
-          const auto i = static_cast<Index>(row.member[k]);
-          precision[static_cast<Index>(k)] = 1 / z.noise_variance[i];
-          value[static_cast<Index>(k)] = innovation[i] / z.noise_variance[i];
+          const auto i = static_cast<Index>(row.member[k]), at = static_cast<Index>(k);
+          scaled.col(at) /= z.noise_variance[i];
+          weighted.col(g) += innovation[i] * scaled.col(at);
         }
-        gram.col(g).reshaped(m, m).noalias() = row.x * precision.asDiagonal() * row.x.transpose();
-        weighted.col(g).noalias() = row.x * value;
+        dense::add_nt<T>(Eigen::Map<dense::Matrix<T>>(gram.col(g).data(), m, m), scaled, row.x, 1);
       }
       parallel_for(static_cast<std::size_t>(m), [&](std::size_t a) {
         const Index ia = static_cast<Index>(a), na = basis.count[a];
-        evidence.segment(basis.offset[a], na) += cells.y.topRows(na) * weighted.row(ia).transpose();
+        for (Index g = 0; g < rows; ++g)
+          evidence.segment(basis.offset[a], na) += weighted(ia, g) * cells.y.col(g).head(na);
+        dense::Matrix<T> scaled(na, rows);
         for (std::size_t b = 0; b <= a; ++b) {
           const Index nb = basis.count[b];
-          information.block(basis.offset[a], basis.offset[b], na, nb).noalias() +=
-              cells.y.topRows(na) * gram.row(ia + m * static_cast<Index>(b)).asDiagonal() *
-              cells.y.topRows(nb).transpose();
+          for (Index g = 0; g < rows; ++g)
+            scaled.col(g) = gram(ia + m * static_cast<Index>(b), g) * cells.y.col(g).head(na);
+          dense::add_nt<T>(information.block(basis.offset[a], basis.offset[b], na, nb), scaled, cells.y.topRows(nb), 1);
         }
       });
     }
@@ -284,7 +285,7 @@ class Latent {
     }
     void prepare() {
       covariance_ = inverse(state_.information);
-      middle_.noalias() = covariance_ * target_ * covariance_;
+      middle_ = product(covariance_, product(target_, covariance_));
       before_ = covariance_.cwiseProduct(target_).sum();
     }
     [[nodiscard]] double reduction(const CellMeasurements& z) const {
@@ -297,9 +298,9 @@ class Latent {
       }
       dense::Matrix<T> phi(belief_->rank(), l);
       for (Index k = 0; k < l; ++k) belief_->basis_.row((*tree_)[z.cells[static_cast<std::size_t>(k)]], phi.col(k));
-      dense::Matrix<T> s = phi.transpose() * (covariance_ * phi);
+      dense::Matrix<T> s = product(phi, product(covariance_, phi));
       s.diagonal() += z.noise_variance;
-      return detail::trace_of_quotient<double>(s, phi.transpose() * (middle_ * phi));
+      return detail::trace_of_quotient<T>(s, product(phi, product(middle_, phi)));
     }
 
    private:
@@ -319,6 +320,12 @@ class Latent {
     check.done();
     return c.variance_error / (2 * (1 + prior_variance / c.least_noise_variance));
   }
+  // A^T B.
+  static dense::Matrix<T> product(const dense::ConstRef<T>& a, const dense::ConstRef<T>& b) {
+    dense::Matrix<T> c = dense::Matrix<T>::Zero(a.cols(), b.cols());
+    dense::add_tn<T>(c, a, b, 1);
+    return c;
+  }
   static dense::Matrix<T> inverse(dense::Matrix<T> information) {
     dense::cholesky<double>(information, "Latent");
     dense::Matrix<T> c;
@@ -334,16 +341,18 @@ class Latent {
     covariance_.swap(covariance);
     const detail::CellRows<T> cells(basis_, tree.size(), [&](std::size_t i) { return tree[i]; });
     variances(cells, variance.data());
-    const Eigen::VectorX<T> z = covariance_ * state_.evidence;
-    dense::Matrix<T> along_x(basis_.modes(), cells.y.cols());  // sum over b of z[(a, b)] fy[b]
-    for (Index a = 0; a < basis_.modes(); ++a) {
-      const auto k = static_cast<std::size_t>(a);
-      along_x.row(a) = z.segment(basis_.offset[k], basis_.count[k]).transpose() * cells.y.topRows(basis_.count[k]);
-    }
+    const Eigen::VectorX<T> z = product(covariance_, state_.evidence);
+    const Index m = basis_.modes();
+    Eigen::VectorX<T> along_x(m);  // sum over b of z[(a, b)] fy[b]
     for (std::size_t g = 0; g < cells.row.size(); ++g) {
-      const Eigen::VectorX<T> value = cells.row[g].x.transpose() * along_x.col(static_cast<Index>(g));
+      for (Index a = 0; a < m; ++a) {
+        const auto k = static_cast<std::size_t>(a);
+        along_x[a] =
+            z.segment(basis_.offset[k], basis_.count[k]).dot(cells.y.col(static_cast<Index>(g)).head(basis_.count[k]));
+      }
       for (std::size_t k = 0; k < cells.row[g].member.size(); ++k)
-        mean[static_cast<Index>(cells.row[g].member[k])] = prior_mean_ + value[static_cast<Index>(k)];
+        mean[static_cast<Index>(cells.row[g].member[k])] =
+            prior_mean_ + cells.row[g].x.col(static_cast<Index>(k)).dot(along_x);
     }
     mean_.swap(mean);
     variance_.swap(variance);
@@ -358,8 +367,8 @@ class Latent {
     parallel_for(static_cast<std::size_t>(m), [&](std::size_t order) {
       const std::size_t b = static_cast<std::size_t>(m) - 1 - order;
       const Index above = basis_.offset[b] + basis_.count[b];
-      const dense::Matrix<T> half =
-          covariance_.block(0, basis_.offset[b], above, basis_.count[b]) * cells.y.topRows(basis_.count[b]);
+      const dense::Matrix<T> half =  // C is symmetric
+          product(covariance_.block(basis_.offset[b], 0, basis_.count[b], above), cells.y.topRows(basis_.count[b]));
       contracted[b].resize(m, rows);
       for (std::size_t a = 0; a <= b; ++a)
         contracted[b].row(static_cast<Index>(a)) = half.middleRows(basis_.offset[a], basis_.count[a])
@@ -373,7 +382,7 @@ class Latent {
       for (Index b = 0; b < m; ++b)
         for (Index a = 0; a <= b; ++a)
           c(a, b) = c(b, a) = contracted[static_cast<std::size_t>(b)](a, static_cast<Index>(g));
-      const dense::Matrix<T> cx = c * row.x;
+      const dense::Matrix<T> cx = product(c, row.x);  // c is symmetric
       for (std::size_t k = 0; k < row.member.size(); ++k)
         out[row.member[k]] = row.x.col(static_cast<Index>(k)).dot(cx.col(static_cast<Index>(k)));
     });
