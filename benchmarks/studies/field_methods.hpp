@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <string>
@@ -16,29 +15,12 @@
 #include <vantage/sim/field_world.hpp>
 #include <vantage/sim/random_field.hpp>
 
+#include "method_names.hpp"
+
 // What the studies of chapter 3 compare, and on what.
 namespace study {
 
 using namespace vantage;
-
-struct MethodInfo {
-  std::string_view name, label;
-};
-
-/// In the order of Table 3.1, and one more: the same map as Ours by another covariance.
-inline constexpr std::array<MethodInfo, 7> all_methods = {{{"fr_idp", "FR-IDP"},
-                                                           {"ar_idp", "AR-IDP"},
-                                                           {"ar_bcm", "AR-BCM"},
-                                                           {"ar_gpr_ik", "AR-GPR-IK"},
-                                                           {"fr_gpf", "FR-GPF"},
-                                                           {"ours", "Ours"},
-                                                           {"ours_latent", "Ours, latent"}}};
-
-inline const MethodInfo& method_info(std::string_view name) {
-  for (const MethodInfo& m : all_methods)
-    if (m.name == name) return m;
-  throw Error("method", "'" + std::string(name) + "'", "a method of the study");
-}
 
 /// The two readings of chapter 3. Both take the kernel of section 3.2.1 (sigma^2 = 1, l = 2.36 m) and the threshold 0.7.
 /// - thesis: as it is written. Noise variance alpha h, alpha = 0.03; cells merge where mean + 2 variance <= 0.7 (eq. 3.8).
@@ -75,9 +57,6 @@ decltype(auto) with_reading(std::string_view name, F&& f) {
 }
 
 // f.operator()<MapT>() for a method's name.
-/// Those that are fast enough to plan on (section 3.2.3).
-inline constexpr std::array<std::string_view, 5> planned_methods = {"fr_idp", "ar_idp", "fr_gpf", "ours", "ours_latent"};
-
 template <class Preset, class F>
 decltype(auto) with_planned_method(std::string_view name, F&& f) {
   if (name == "fr_idp") return f.template operator()<FrIdp<Preset>>();

@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "field_methods.hpp"
+#include "method_names.hpp"
 #include "statistics.hpp"
 #include "table.hpp"
 
