@@ -30,6 +30,7 @@
 #include <vantage/maps/field/decompress.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/full.hpp>
+#include <vantage/maps/field/hyperparameters.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/interest.hpp>
 #include <vantage/maps/field/kernel.hpp>
