@@ -10,6 +10,7 @@
 #include <vantage/concepts/map.hpp>
 #include <vantage/eval/field_metrics.hpp>
 #include <vantage/io/npy.hpp>
+#include <vantage/maps/field/decompress.hpp>
 #include <vantage/mission/canvas.hpp>
 #include <vantage/mission/palette.hpp>
 #include <vantage/mission/report.hpp>
@@ -18,6 +19,13 @@
 
 // What a person looks at when the mission is over: pictures, the map in common formats, the page.
 namespace field {
+
+/// Whether a map's belief says how its cells, which stand for averages, covary.
+template <class M>
+inline constexpr bool decompressible = false;
+template <class Kernel, class Belief, class Resolution, class Sensor>
+inline constexpr bool decompressible<IntegralGp<Kernel, CellAverage, Belief, Resolution, Sensor>> =
+    requires(const Belief b, const NdTree& tree) { b.covariance_matrix(tree); } || requires(const Belief b, std::size_t i) { b.covariance(i, i); };
 
 /// A picture and how to read it.
 struct Drawing {
@@ -34,30 +42,28 @@ class Artist {
       : map_(map), input_(input), interest_(interest), path_(path) {}
 
   [[nodiscard]] std::vector<Drawing> all() const {
-    double deviation = 0, error = 0;
-    for (std::size_t i = 0; i < map_.size(); ++i) deviation = std::max(deviation, std::sqrt(std::max(0.0, map_.variance(i))));
-    const Image<double> difference = raster([&](std::size_t i) { return map_.mean(i); }) - truth().values();
-    for (const double e : difference.reshaped())
-      if (std::isfinite(e)) error = std::max(error, std::abs(e));
-    error = error > 0 ? error : 1;
-
     const std::string& unit = truth().quantity().unit;
-    std::vector<Drawing> drawings;
     const double low = truth().minimum(), high = std::max(truth().maximum(), low + 1e-12);
-    drawings.push_back({"truth.png", "The field", "What the UAV could not know, and its path: a dot is a view, a ring the start.",
-                        draw(viridis, low, high, [&](const Eigen::Vector2d& p) { return truth().at(p); }, false, true),
-                        {colours_of(viridis), low, high, unit}});
-    drawings.push_back({"map.png", "The map", "Mean of each cell, with the cells' borders. The dark line bounds what is truly above the threshold.",
-                        draw(viridis, low, high, of_cell([&](std::size_t i) { return map_.mean(i); }), true, false),
-                        {colours_of(viridis), low, high, unit}});
-    drawings.push_back({"uncertainty.png", "Uncertainty", "Standard deviation that the map states for each cell.",
-                        draw(plum, 0, deviation > 0 ? deviation : 1, of_cell([&](std::size_t i) { return std::sqrt(std::max(0.0, map_.variance(i))); }), false, false),
-                        {colours_of(plum), 0, deviation, unit}});
-    drawings.push_back({"error.png", "Error", "Map minus truth: red is too high, blue too low.",
-                        draw(blue_white_red, -error, error,
-                             [&](const Eigen::Vector2d& p) { return map_.mean(map_.cell_at(p)) - truth().at(p); }, false, false),
-                        {colours_of(blue_white_red), -error, error, unit}});
-    return drawings;
+    const ColourScale values{colours_of(viridis), low, high, unit};
+    const auto deviation = [&](std::size_t i) { return std::sqrt(std::max(0.0, map_.variance(i))); };
+    const auto error_at = [&](const Eigen::Vector2d& p) { return map_.mean(map_.cell_at(p)) - truth().at(p); };
+
+    std::vector<Drawing> d;
+    d.push_back({"truth.png", "The field", "The truth, which the UAV does not know. Lines bound what lies above the threshold, in all pictures.",
+                 draw(viridis, low, high, [&](const Eigen::Vector2d& p) { return truth().at(p); }), values});
+    d.push_back({"map.png", "The map", "Mean of each cell, and the cells' borders: large where little matters.",
+                 draw(viridis, low, high, of_cell([&](std::size_t i) { return map_.mean(i); }), Overlay::cells), values});
+    if constexpr (decompressible<M>)
+      if (map_.size() <= 2048)  // its cost grows with the cube of the cells
+        d.push_back({"decompressed.png", "Decompressed", "What the map says at a higher resolution, through the correlation of its cells.", draw_decompressed(low, high), values});
+    d.push_back({"path.png", "The flight", "Views over the field: a dot is a measurement, the large dot the start.",
+                 draw(viridis, low, high, [&](const Eigen::Vector2d& p) { return truth().at(p); }, Overlay::path), values});
+    const double unsure = quantile(raster(deviation), 0.98), wrong = quantile((raster([&](std::size_t i) { return map_.mean(i); }) - truth().values()).abs(), 0.98);
+    d.push_back({"uncertainty.png", "Uncertainty", "Standard deviation that the map states; the brightest colour is for the highest 2 % too.",
+                 draw(plum, 0, unsure, of_cell(deviation)), {colours_of(plum), 0, unsure, unit}});
+    d.push_back({"error.png", "Error", "Map minus truth: red is too high, blue too low; the extreme colours are for the largest 2 % too.",
+                 draw(blue_white_red, -wrong, wrong, error_at), {colours_of(blue_white_red), -wrong, wrong, unit}});
+    return d;
   }
 
   /// value(cell) at every pixel of the truth.
@@ -75,16 +81,40 @@ class Artist {
   auto of_cell(F value) const {
     return [this, value](const Eigen::Vector2d& p) { return std::isnan(truth().at(p)) ? truth().at(p) : value(map_.cell_at(p)); };
   }
+  enum class Overlay { none, cells, path };
   template <class F>
-  [[nodiscard]] Picture draw(Palette palette, double low, double high, F&& value, bool cells, bool path) const {
+  [[nodiscard]] Picture draw(Palette palette, double low, double high, F&& value, Overlay overlay = Overlay::none) const {
     Canvas canvas(truth().area(), 800);
     canvas.fill([&](const Eigen::Vector2d& p) { return palette((value(p) - low) / (high - low)); });
-    if (cells)
+    if (overlay == Overlay::cells)
       for (std::size_t i = 0; i < map_.size(); ++i)
         if (canvas.px_per_m() * map_.cell(i).sizes().minCoeff() >= 6) canvas.rectangle(map_.cell(i), 0.7, {255, 255, 255}, 0.22);
     canvas.outline([&](const Eigen::Vector2d& p) { return interest_.hot(truth().at(p)); }, {20, 20, 20}, 0.85);
-    if (path) draw_path(canvas);
+    if (overlay == Overlay::path) draw_path(canvas);
     return canvas.picture();
+  }
+  [[nodiscard]] Picture draw_decompressed(double low, double high) const
+    requires decompressible<M>
+  {
+    const Eigen::Vector2d side = truth().area().sizes();
+    const int columns = std::max(1, static_cast<int>(std::lround(100 * side.x() / side.maxCoeff())));
+    const int rows = std::max(1, static_cast<int>(std::lround(100 * side.y() / side.maxCoeff())));
+    const std::vector<Box2> boxes = grid_boxes(truth().area(), columns, rows);
+    const Decompressed fine = decompress(map_, boxes);
+    return draw(viridis, low, high, [&](const Eigen::Vector2d& p) {
+      const Eigen::Vector2d t = (p - truth().area().min()).cwiseQuotient(side);
+      const int column = std::min(static_cast<int>(t.x() * columns), columns - 1), row = std::min(static_cast<int>(t.y() * rows), rows - 1);
+      return std::isnan(truth().at(p)) ? truth().at(p) : fine.mean[row * columns + column];
+    });
+  }
+  /// Of what is not masked; never 0.
+  [[nodiscard]] double quantile(const Image<double>& image, double share) const {
+    std::vector<double> v;
+    for (Eigen::Index k = 0; k < image.size(); ++k)  // both are row-major
+      if (!std::isnan(truth().values().data()[k])) v.push_back(image.data()[k]);
+    const auto at = v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+    std::nth_element(v.begin(), at, v.end());
+    return *at > 0 ? *at : 1.0;
   }
   void draw_path(Canvas& canvas) const {
     const auto at = [&](std::size_t k) -> Eigen::Vector2d { return path_[k].position().head<2>(); };

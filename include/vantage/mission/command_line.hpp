@@ -44,7 +44,7 @@ struct MissionOptions {
   std::uint64_t seed = 7;
   int threads = 0;            ///< 0: as many as there are cores
   ClockKind clock = ClockKind::real;
-  PresetKind preset = PresetKind::reference;
+  PresetKind preset = PresetKind::thesis;
   std::string method = "ours";
   double budget_s = std::numeric_limits<double>::infinity();               ///< mission time
   std::uint64_t measurements = std::numeric_limits<std::uint64_t>::max();

@@ -57,14 +57,14 @@ h2{font-size:16px;margin:44px 0 14px;font-weight:650}p{margin:0 0 8px;max-width:
 .figures{display:grid;grid-template-columns:repeat(auto-fit,minmax(148px,1fr));gap:1px;margin:26px 0 0;background:var(--line);border:1px solid var(--line);border-radius:8px;overflow:hidden}
 .figures div{background:var(--paper);padding:13px 16px}.figures b{display:block;font-size:23px;line-height:1.3;font-weight:600;font-variant-numeric:tabular-nums}
 .figures b small{font-size:14px;font-weight:400;color:var(--soft)}.figures span{color:var(--soft);font-size:13px;display:block}
-.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,330px),1fr));gap:26px 24px}
+.pictures{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,320px),1fr));gap:28px 24px}
 figure{margin:0}figure img{display:block;width:100%;border-radius:4px}figcaption{margin-top:9px;font-size:13px;color:var(--soft)}figcaption b{color:var(--ink);font-weight:600}
 .scale{display:grid;grid-template-columns:auto 1fr auto;gap:8px;align-items:center;margin-top:8px;font-size:12px;color:var(--soft);font-variant-numeric:tabular-nums}.scale i{height:8px;border-radius:4px}
 .plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(100%,440px),1fr));gap:30px 34px}.plot{width:100%;height:auto;overflow:visible}
 .bar{display:flex;height:14px;border-radius:7px;overflow:hidden;background:var(--line)}.bar i{display:block}.key{font-size:13px;color:var(--soft);margin-top:8px}.key i{display:inline-block;width:10px;height:10px;border-radius:3px;margin:0 6px 0 0}.key span{margin-right:22px;white-space:nowrap}
 .p{background:var(--a)}.m{background:var(--b)}.f{background:var(--c)}
 .wide{overflow-x:auto;border:1px solid var(--line);border-radius:8px}table{border-collapse:collapse;width:100%;font-size:13px;font-variant-numeric:tabular-nums}
-th,td{padding:5px 12px;text-align:right;white-space:nowrap}th{font-weight:600;color:var(--soft);border-bottom:1px solid var(--line)}tr:nth-child(even) td{background:var(--card)}
+th,td{padding:5px 10px;text-align:right;white-space:nowrap}th{font-weight:600;color:var(--soft);border-bottom:1px solid var(--line)}tr:nth-child(even) td{background:var(--card)}
 .steps{max-height:560px;overflow:auto}.steps th{position:sticky;top:0;background:var(--paper)}
 .config td,.config th{text-align:left}.config td{white-space:normal;overflow-wrap:anywhere}.config td:first-child{color:var(--soft);width:13em}pre{background:var(--card);padding:12px 16px;border-radius:8px;overflow-x:auto;font:13px/1.5 ui-monospace,monospace;margin:0 0 14px}
 @media print{.steps{max-height:none}}
@@ -113,12 +113,12 @@ inline std::string fixed(double x, int digits) {
 
 inline std::string html_of_steps(const MissionRecord& record) {
   if (record.steps.empty()) return "";
-  std::string s = "<h2>Steps</h2>\n<div class=\"wide steps\"><table><thead><tr><th>step<th>time [s]<th>x [m]<th>y [m]<th>z [m]<th>utility<th>candidates<th>planning [ms]<th>mapping [ms]<th>travel [s]";
+  std::string s = "<h2>Steps</h2>\n<div class=\"wide steps\"><table><thead><tr><th>step<th>time [s]<th>position [m]<th>utility<th>candidates<th>planning [ms]<th>mapping [ms]<th>travel [s]";
   for (const Metric& m : record.steps.back().metrics) s += "<th>" + escaped(m.name);
   s += "</tr></thead><tbody>\n";
   for (const StepRecord& r : record.steps) {
     const Eigen::Vector3d p = r.view.position();
-    s += concat("<tr><td>", r.index, "<td>", fixed(r.elapsed_s, 1), "<td>", fixed(p.x(), 2), "<td>", fixed(p.y(), 2), "<td>", fixed(p.z(), 2),
+    s += concat("<tr><td>", r.index, "<td>", fixed(r.elapsed_s, 1), "<td>", fixed(p.x(), 2), ", ", fixed(p.y(), 2), ", ", fixed(p.z(), 2),
                 "<td>", short_number(r.utility), "<td>", r.planned ? std::to_string(r.candidates) : "-", "<td>", fixed(1000 * r.planning_s, 1), "<td>",
                 fixed(1000 * r.mapping_s, 1), "<td>", fixed(r.action_s, 1));
     for (const Metric& m : r.metrics) s += "<td>" + short_number(m.value);

@@ -1,68 +1,63 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 
-// Somebody else's program: a map, a utility and a world of its own in vantage's loop.
-#include <algorithm>
-#include <array>
+// Somebody else's program: vantage's map at a size of its own (cells that split 3 x 3), in vantage's loop, with a utility, a
+// sampler and a world of its own.
+#include <cmath>
 #include <cstdio>
 #include <optional>
-#include <span>
 
-#include <vantage/loop/clocks.hpp>
-#include <vantage/loop/nbv_loop.hpp>
-#include <vantage/version.hpp>
+#include <vantage/vantage.hpp>
 
-using namespace vantage;
+// How little is known under the camera, less what it costs to fly low.
+struct DoubtFromAbove {
+  using MapNeeds = vantage::Needs<vantage::need::Field>;
 
-struct Glimpse {
-  View view;
-};
-
-/// How often each of four sectors was seen.
-struct SectorMap {
-  using Measurement = Glimpse;
-  std::array<double, 4> seen{};
-
-  static std::size_t sector(const View& v) {
-    return (v.position().x() > 0 ? 1u : 0u) + (v.position().y() > 0 ? 2u : 0u);
-  }
-  void integrate(const Glimpse& z, Rng&) { seen[sector(z.view)] += 1; }
-  Box3 bounds() const { return {Eigen::Vector3d(-1, -1, 0), Eigen::Vector3d(1, 1, 1)}; }
-};
-
-struct LeastSeen {
-  double operator()(const SectorMap& map, const View& v) const { return -map.seen[SectorMap::sector(v)]; }
-};
-
-struct Corners {
-  template <Map M>
-  Candidates sample(const M& map, const Situation&, const Score&, Rng&) const {
-    const Box3 b = map.bounds();
-    Candidates c;
-    for (double y : {b.min().y(), b.max().y()})
-      for (double x : {b.min().x(), b.max().x()}) c.views.push_back(nadir(x, y, b.max().z()));
-    return c;
+  template <vantage::FieldMap M>
+  double operator()(const M& map, const vantage::View& view) const {
+    return map.variance(map.cell_at(view.position().head<2>())) - 0.001 / view.position().z();
   }
 };
 
-struct First {
-  template <Map M>
-  std::optional<Decision> select(const M&, const Situation&, const Candidates& c, const Score&, Rng&) const {
-    const auto best = std::max_element(c.utilities.begin(), c.utilities.end());
-    return Decision{.index = static_cast<std::size_t>(best - c.utilities.begin())};
+// Anywhere above the field, at random.
+struct Somewhere {
+  template <vantage::Map M>
+  vantage::Candidates sample(const M& map, const vantage::Situation&, const vantage::Score&, vantage::Rng& rng) const {
+    const vantage::Box3 box = map.bounds();
+    const Eigen::Vector3d size = box.sizes();
+    vantage::Candidates candidates;
+    for (int i = 0; i < 50; ++i)
+      candidates.views.push_back(vantage::nadir(box.min().x() + rng.uniform() * size.x(),
+                                                box.min().y() + rng.uniform() * size.y(), 1 + rng.uniform()));
+    return candidates;
   }
 };
 
-struct HereWorld {
-  std::optional<Glimpse> observe(const View& v) { return Glimpse{v}; }
+// A plane that rises along x from 0 to 1, measured without noise.
+struct Slope {
+  vantage::NadirSensor sensor{.pixels = 10};
+
+  std::optional<vantage::FieldImage> observe(const vantage::View& view) const {
+    vantage::FieldImage image{view, sensor.footprint(view), {}};
+    image.values.resize(sensor.pixels, sensor.pixels);
+    for (int column = 0; column < sensor.pixels; ++column)
+      image.values.col(column).setConstant((image.footprint.min().x() + image.footprint.sizes().x() * (column + 0.5) / sensor.pixels) / 20);
+    return image;
+  }
 };
 
 int main() {
-  NbvLoop loop{SectorMap{}, LeastSeen{}, Corners{}, First{}};
-  HereWorld world;
-  const auto eight = [](const SectorMap&, const Situation& q) { return q.visited.size() == 8; };
-  loop.run(world, nadir(0, 0, 1), {}, eight, ModelledClock{}, Rng{7});
-  for (const double seen : loop.map.seen)
-    if (seen != 2) return 1;
-  std::printf("vantage %s: every sector seen twice\n", VANTAGE_VERSION);
+  using Map = vantage::IntegralGp<vantage::SquaredExponential, vantage::CellAverage, vantage::Full<>, vantage::Fixed<>>;
+  vantage::NbvLoop loop{Map{{.tree = {.branching = 3, .depth = 2}}}, DoubtFromAbove{}, Somewhere{}, vantage::ArgMax{}};
+  const auto error = [&] {
+    double sum = 0;
+    for (std::size_t i = 0; i < loop.map.size(); ++i)
+      sum += std::abs(loop.map.mean(i) - loop.map.cell(i).center().x() / 20);
+    return sum / static_cast<double>(loop.map.size());
+  };
+  const double before = error();
+  Slope world;
+  loop.run(world, vantage::nadir(10, 10, 1), {}, vantage::Measurements{30}, vantage::ModelledClock{}, vantage::Rng{7});
+  std::printf("vantage %s: %zu cells, mean error %.4f before, %.4f after\n", VANTAGE_VERSION, loop.map.size(), before, error());
+  return loop.map.size() == 81 && error() < before / 4 ? 0 : 1;
 }

@@ -52,14 +52,14 @@ TEST(CommandLine, Defaults) {
 }
 
 TEST(CommandLine, ReadsEveryOption) {
-  const Result r = run({"--out", "a/b", "--seed", "11", "--threads", "2", "--method", "random", "--preset", "thesis", "--clock",
+  const Result r = run({"--out", "a/b", "--seed", "11", "--threads", "2", "--method", "random", "--preset", "reference", "--clock",
                         "modelled", "--budget", "300.5", "--measurements", "16", "--travel", "80", "--resume"});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_EQ(r.options.out, "a/b");
   EXPECT_EQ(r.options.seed, 11u);
   EXPECT_EQ(r.options.threads, 2);
   EXPECT_EQ(r.options.method, "random");
-  EXPECT_EQ(r.options.preset, PresetKind::thesis);
+  EXPECT_EQ(r.options.preset, PresetKind::reference);
   EXPECT_EQ(r.options.clock, ClockKind::modelled);
   EXPECT_EQ(r.options.budget_s, 300.5);
   EXPECT_EQ(r.options.measurements, 16u);
@@ -100,7 +100,7 @@ TEST(CommandLine, HelpAndVersionAndMethodsEndWell) {
   EXPECT_EQ(run({"--list-methods"}).out, "ours    the best one\nrandom  a baseline\n");
   const std::string help = run({"--help"}).out;
   for (const char* option : {"--out", "--seed", "--threads", "--clock", "--preset", "--method", "--list-methods", "--budget",
-                             "--measurements", "--travel", "--resume", "out/toy", "real", "reference"})
+                             "--measurements", "--travel", "--resume", "out/toy", "real", "thesis"})
     EXPECT_NE(help.find(option), std::string::npos) << option;
   EXPECT_EQ(help.find("->"), std::string::npos) << help;  // no enumerators behind the names
 }
