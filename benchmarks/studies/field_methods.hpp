@@ -22,9 +22,12 @@ namespace study {
 
 using namespace vantage;
 
-/// The two readings of chapter 3. Both take the kernel of section 3.2.1 (sigma^2 = 1, l = 2.36 m) and the threshold 0.7.
-/// - thesis: as it is written. Noise variance alpha h, alpha = 0.03; cells merge where mean + 2 variance <= 0.7 (eq. 3.8).
-/// - reference: as the published code does it. Noise deviation alpha h, here with alpha = 0.05, which meets the errors of
+/// The two readings of chapter 3. Both take the kernel of section 3.2.1 (sigma^2 = 1, l = 2.36 m) and the threshold
+/// 0.7.
+/// - thesis: as it is written. Noise variance alpha h, alpha = 0.03; cells merge where mean + 2 variance <= 0.7
+/// (eq. 3.8).
+/// - reference: as the published code does it. Noise deviation alpha h, here with alpha = 0.05, which meets the errors
+/// of
 ///   Table 3.1; measured cells merge where mean + deviation < 0.7.
 template <class Preset>
 struct Reading;
@@ -45,8 +48,9 @@ inline const std::vector<std::string>& all_readings() {
 }
 
 inline std::string about(std::string_view reading) {
-  return reading == "thesis" ? "noise variance 0.03 h (deviation 0.27 at 2.5 m), merged where mean + 2 variance <= 0.7"
-                             : "noise deviation 0.05 h (0.125 at 2.5 m), measured cells merged where mean + deviation < 0.7";
+  return reading == "thesis"
+             ? "noise variance 0.03 h (deviation 0.27 at 2.5 m), merged where mean + 2 variance <= 0.7"
+             : "noise deviation 0.05 h (0.125 at 2.5 m), measured cells merged where mean + deviation < 0.7";
 }
 
 /// f.operator()<Preset>() for a reading's name.

@@ -29,6 +29,7 @@ inline const MethodInfo& method_info(std::string_view name) {
 }
 
 /// Those that are fast enough to plan on (section 3.2.3).
-inline constexpr std::array<std::string_view, 5> planned_methods = {"fr_idp", "ar_idp", "fr_gpf", "ours", "ours_latent"};
+inline constexpr std::array<std::string_view, 5> planned_methods = {"fr_idp", "ar_idp", "fr_gpf", "ours",
+                                                                    "ours_latent"};
 
 }  // namespace study
