@@ -122,7 +122,7 @@ class Mission {
     if (o_.resume && checkpoint.load(loop, world, clock, state))
       std::cerr << "resumed after step " << state.visited.size() << '\n';
     loop.resume(world, state, {}, stop(), clock, recorder, progress, checkpoint);
-    write_results(o_, input_, loop.map, interest, recorder.record());
+    write_results(o_, input_, Snapshot(loop.map, truth), interest.threshold, recorder.record());
     std::cout << (o_.out / "report.html").string() << '\n';
   }
 
