@@ -350,7 +350,7 @@ int main(int argc, char** argv) {
   study::FieldOptions options;
   options.out = "out/studies/field";
   for (const study::MethodInfo& m : study::all_methods) options.methods.emplace_back(m.name);
-  options.readings = study::all_readings();
+  options.readings = {"reference", "thesis"};
   study::add_study_options(app, options);
   app.add_option("--sizes", options.sizes, "Finest cells along a side, separated by commas (default: 16,32,64)")
       ->delimiter(',')

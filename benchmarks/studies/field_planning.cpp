@@ -318,7 +318,7 @@ int main(int argc, char** argv) {
   study::PlanningOptions options;
   options.out = "out/studies/field_planning";
   for (const std::string_view name : study::planned_methods) options.methods.emplace_back(name);
-  options.readings = {"reference"};
+  options.readings = {"reference", "thesis_quiet"};
   study::add_study_options(app, options);
   app.add_option("--clocks", options.clocks,
                  "measured: computing as it is here. published: as the published code takes")
