@@ -41,7 +41,10 @@ inline void add_study_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(names))
       ->default_str(CLI::detail::join(names, ","))
       ->type_name("NAME,...");
-  app.add_option("--noise", o.readings, "reference: " + about("reference") + ". thesis: " + about("thesis"))
+  std::string about_readings;
+  for (const std::string& r : all_readings())
+    about_readings += (about_readings.empty() ? "" : ". ") + r + ": " + about(r);
+  app.add_option("--noise", o.readings, about_readings)
       ->delimiter(',')
       ->check(CLI::IsMember(all_readings()))
       ->default_str(CLI::detail::join(o.readings, ","))
