@@ -11,7 +11,7 @@
 #include <string_view>
 #include <vector>
 
-#include "field_methods.hpp"
+#include "method_names.hpp"
 #include "statistics.hpp"
 #include "table.hpp"
 
@@ -23,10 +23,12 @@ using PerField = std::function<std::vector<double>(std::string_view method, std:
 /// A metric's mean over the fields, one value for each time of the grid.
 using OverTime = std::function<std::vector<double>(std::string_view method, std::string_view metric)>;
 
-inline std::vector<Claim> test_planning_claims(const PerField& figure, const OverTime& curve, std::span<const double> grid) {
+inline std::vector<Claim> test_planning_claims(const PerField& figure, const OverTime& curve,
+                                               std::span<const double> grid) {
   std::vector<Claim> claims;
   // `better` (sign +1: more is better) than every one of `others`, on average over the fields.
-  const auto better = [&](std::string text, std::string_view method, const std::vector<std::string_view>& others, std::string_view name, int sign, int digits) {
+  const auto better = [&](std::string text, std::string_view method, const std::vector<std::string_view>& others,
+                          std::string_view name, int sign, int digits) {
     Claim c{.text = std::move(text), .scope = {}, .met = true, .numbers = {}};
     for (const std::string_view other : others) {
       const std::vector<double> a = figure(method, name), b = figure(other, name);
@@ -36,13 +38,16 @@ inline std::vector<Claim> test_planning_claims(const PerField& figure, const Ove
         break;
       }
       const Summary d = difference(a, b);
-      c.met = *c.met && sign * d.mean > 0;
-      c.numbers += std::string(c.numbers.empty() ? "" : "; ") + std::string(method_info(method).label) + " " + decimals(Summary::of(a).mean, digits) + " - " +
-                   std::string(method_info(other).label) + " " + decimals(Summary::of(b).mean, digits) + " = " + with_deviation(d.mean, d.standard_error(), digits);
+      if (std::isnan(d.mean)) c.met = std::nullopt;  // nothing to compare, such as no low view at all
+      if (c.met) c.met = *c.met && sign * d.mean > 0;
+      c.numbers += std::string(c.numbers.empty() ? "" : "; ") + std::string(method_info(method).label) + " " +
+                   decimals(Summary::of(a).mean, digits) + " - " + std::string(method_info(other).label) + " " +
+                   decimals(Summary::of(b).mean, digits) + " = " + with_deviation(d.mean, d.standard_error(), digits);
     }
     claims.push_back(std::move(c));
   };
-  // Best of all at so many times of the grid; the first minute, in which all maps are little more than the prior, aside.
+  // Best of all at so many times of the grid; the first minute, in which all maps are little more than the prior,
+  // aside.
   const auto consistently = [&](std::string text, std::string_view metric, int sign) {
     Claim c{.text = std::move(text), .scope = {}, .met = std::nullopt, .numbers = "not all were flown"};
     const std::vector<double> ours = curve("ours", metric);
@@ -67,17 +72,22 @@ inline std::vector<Claim> test_planning_claims(const PerField& figure, const Ove
     claims.push_back(std::move(c));
   };
 
-  better("Ours has the lowest RMSE in hotspots, averaged over the mission", "ours", {"fr_gpf", "fr_idp", "ar_idp"}, "rmse_hotspots_average", -1, 4);
+  better("Ours has the lowest RMSE in hotspots, averaged over the mission", "ours", {"fr_gpf", "fr_idp", "ar_idp"},
+         "rmse_hotspots_average", -1, 4);
   better("... and at its end", "ours", {"fr_gpf", "fr_idp", "ar_idp"}, "rmse_hotspots_end", -1, 4);
-  better("Ours has the highest IoU, averaged over the mission", "ours", {"fr_gpf", "fr_idp", "ar_idp"}, "iou_average", +1, 4);
+  better("Ours has the highest IoU, averaged over the mission", "ours", {"fr_gpf", "fr_idp", "ar_idp"}, "iou_average",
+         +1, 4);
   better("... and at its end", "ours", {"fr_gpf", "fr_idp", "ar_idp"}, "iou_end", +1, 4);
   consistently("Ours is best consistently: in RMSE at 90 % of all times", "rmse_hotspots", -1);
   consistently("... and in IoU", "iou", +1);
   better("Ours spends less time planning than FR-GPF [s]", "ours", {"fr_gpf"}, "planning_s", -1, 2);
-  better("FR-IDP ends less accurate in hotspots than both GP fusions", "fr_idp", {"fr_gpf", "ours"}, "rmse_hotspots_end", +1, 4);
-  better("AR-IDP ends less accurate in hotspots than both GP fusions", "ar_idp", {"fr_gpf", "ours"}, "rmse_hotspots_end", +1, 4);
+  better("FR-IDP ends less accurate in hotspots than both GP fusions", "fr_idp", {"fr_gpf", "ours"},
+         "rmse_hotspots_end", +1, 4);
+  better("AR-IDP ends less accurate in hotspots than both GP fusions", "ar_idp", {"fr_gpf", "ours"},
+         "rmse_hotspots_end", +1, 4);
   better("FR-IDP plans faster than Ours [s]", "fr_idp", {"ours"}, "planning_s", -1, 2);
-  better("FR-IDP is misled to look closely at nothing: more of its low views see no hotspot than of Ours (share)", "fr_idp", {"ours"}, "wasted_share", +1, 3);
+  better("FR-IDP is misled to look closely at nothing: more of its low views see no hotspot than of Ours (share)",
+         "fr_idp", {"ours"}, "wasted_share", +1, 3);
   better("AR-IDP, too", "ar_idp", {"ours"}, "wasted_share", +1, 3);
   return claims;
 }

@@ -39,7 +39,8 @@ struct Summary {
 
 /// Of a - b, pair by pair: the same field under two methods. Pairs with a NaN do not count.
 inline Summary difference(std::span<const double> a, std::span<const double> b) {
-  if (a.size() != b.size()) throw vantage::Error("difference", vantage::concat(a.size(), " and ", b.size(), " values"), "pairs");
+  if (a.size() != b.size())
+    throw vantage::Error("difference", vantage::concat(a.size(), " and ", b.size(), " values"), "pairs");
   std::vector<double> d(a.size());
   for (std::size_t i = 0; i < d.size(); ++i) d[i] = a[i] - b[i];
   return Summary::of(d);
@@ -55,14 +56,17 @@ inline double median(std::vector<double> values) {
 /// Times from 0 to `end_s`, both included, `step_s` apart.
 inline std::vector<double> time_grid(double end_s, double step_s) {
   std::vector<double> t;
-  for (std::size_t i = 0; static_cast<double>(i) * step_s <= end_s * (1 + 1e-12); ++i) t.push_back(static_cast<double>(i) * step_s);
+  for (std::size_t i = 0; static_cast<double>(i) * step_s <= end_s * (1 + 1e-12); ++i)
+    t.push_back(static_cast<double>(i) * step_s);
   return t;
 }
 
 /// A quantity that changes at each of `time` (ascending) and holds its value until the next, on a grid; NaN before the
 /// first: what is known of a map at a time is what the last measurement before it left.
-inline std::vector<double> held(std::span<const double> time, std::span<const double> value, std::span<const double> grid) {
-  if (time.size() != value.size()) throw vantage::Error("held", vantage::concat(time.size(), " times, ", value.size(), " values"), "as many of each");
+inline std::vector<double> held(std::span<const double> time, std::span<const double> value,
+                                std::span<const double> grid) {
+  if (time.size() != value.size())
+    throw vantage::Error("held", vantage::concat(time.size(), " times, ", value.size(), " values"), "as many of each");
   if (!std::is_sorted(time.begin(), time.end())) throw vantage::Error("held", "the times do not ascend", "a history");
   std::vector<double> out;
   for (const double t : grid) {

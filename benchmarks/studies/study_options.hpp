@@ -32,18 +32,34 @@ inline void add_study_options(CLI::App& app, Options& o) {
   for (const std::string& m : o.methods) names.push_back(m);
   app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
   app.add_option("--out", o.out, "Folder of the results; what has been measured there is not measured again")
-      ->take_last()->capture_default_str()->type_name("DIR");
+      ->take_last()
+      ->capture_default_str()
+      ->type_name("DIR");
   app.add_option("--fields", o.fields, "Random fields to average over")->check(CLI::Range(1, 1000000))->type_name("N");
   app.add_option("--methods", o.methods, "Methods, separated by commas")
-      ->delimiter(',')->check(CLI::IsMember(names))->default_str(CLI::detail::join(names, ","))->type_name("NAME,...");
-  app.add_option("--noise", o.readings, "reference: " + about("reference") + ". thesis: " + about("thesis"))
-      ->delimiter(',')->check(CLI::IsMember(all_readings()))->default_str(CLI::detail::join(o.readings, ","))->type_name("NAME,...");
+      ->delimiter(',')
+      ->check(CLI::IsMember(names))
+      ->default_str(CLI::detail::join(names, ","))
+      ->type_name("NAME,...");
+  std::string about_readings;
+  for (const std::string& r : all_readings())
+    about_readings += (about_readings.empty() ? "" : ". ") + r + ": " + about(r);
+  app.add_option("--noise", o.readings, about_readings)
+      ->delimiter(',')
+      ->check(CLI::IsMember(all_readings()))
+      ->default_str(CLI::detail::join(o.readings, ","))
+      ->type_name("NAME,...");
   app.add_option("--seed", o.seed, "Seed of the fields and of the noise")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62))->capture_default_str()->type_name("N");
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62))
+      ->capture_default_str()
+      ->type_name("N");
   app.add_option("--threads", o.threads, "Threads of a unit of work; 0: all cores")
-      ->check(CLI::Range(0, 1024))->capture_default_str()->type_name("N");
-  auto* shard = app.add_option("--shard", o.shard, "Run only every n-th unit of work, from the i-th on, and make no tables: for job arrays")
-      ->type_name("i/n");
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str()
+      ->type_name("N");
+  auto* shard = app.add_option("--shard", o.shard,
+                               "Run only every n-th unit of work, from the i-th on, and make no tables: for job arrays")
+                    ->type_name("i/n");
   app.add_flag("--merge", o.merge, "Run nothing: make the tables of the units that there are")->excludes(shard);
   app.add_flag("--quick", o.quick, "A small part of the study, in about a minute");
 }

@@ -46,7 +46,8 @@ class Markdown {
     text_ += '\n';
   }
   void row(std::span<const std::string> cells) {
-    if (cells.size() != columns_) throw vantage::Error("Markdown", vantage::concat(cells.size(), " cells"), vantage::concat(columns_));
+    if (cells.size() != columns_)
+      throw vantage::Error("Markdown", vantage::concat(cells.size(), " cells"), vantage::concat(columns_));
     text_ += '|';
     for (const std::string& cell : cells) {
       text_ += ' ';
@@ -100,7 +101,11 @@ inline Json json(std::span<const Claim> claims) {
   Json list = Json::array();
   const auto value = [](const std::optional<bool>& b) { return b ? Json(*b) : Json(); };
   for (const Claim& c : claims)
-    list.push_back({{"claim", c.text}, {"scope", c.scope}, {"met", value(c.met)}, {"met_by_the_thesis_figures", value(c.of_thesis)}, {"numbers", c.numbers}});
+    list.push_back({{"claim", c.text},
+                    {"scope", c.scope},
+                    {"met", value(c.met)},
+                    {"met_by_the_thesis_figures", value(c.of_thesis)},
+                    {"numbers", c.numbers}});
   return list;
 }
 

@@ -10,6 +10,7 @@
 #include <charconv>
 #include <chrono>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,8 @@
 #include <vantage/io/file.hpp>
 #include <vantage/mission/text.hpp>
 
-// A study as many small units of work, each with a result file of its own: it may be interrupted at any time and started
-// again, or spread over machines that share a folder.
+// A study as many small units of work, each with a result file of its own: it may be interrupted at any time and
+// started again, or spread over machines that share a folder.
 namespace study {
 
 using Json = nlohmann::ordered_json;
@@ -61,8 +62,8 @@ struct Shard {
   [[nodiscard]] bool holds(std::size_t unit) const { return unit % count == index; }
 };
 
-/// Held while a unit runs: units measure time, so processes of one machine that share a folder take turns. The lock goes
-/// with the process, whatever ends it.
+/// Held while a unit runs: units measure time, so processes of one machine that share a folder take turns. The lock
+/// goes with the process, whatever ends it.
 class Alone {
  public:
   explicit Alone(const std::filesystem::path& folder) {
@@ -71,7 +72,8 @@ class Alone {
     const std::string path = (folder / (std::string(".alone.") + host)).string();
     file_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     int locked = -1;
-    if (file_ >= 0) do locked = ::flock(file_, LOCK_EX);
+    if (file_ >= 0) do
+        locked = ::flock(file_, LOCK_EX);
       while (locked != 0 && errno == EINTR);
     if (locked != 0) {
       const std::string reason = std::strerror(errno);
@@ -87,8 +89,8 @@ class Alone {
   int file_ = -1;
 };
 
-/// The result files of a study's units: FOLDER/NAME.json, each {"parameters": ..., "result": ...}, each written whole or
-/// not at all.
+/// The result files of a study's units: FOLDER/NAME.json, each {"parameters": ..., "load_average": ..., "result": ...},
+/// written whole or not at all.
 class Units {
  public:
   /// Makes the folder. Throws Error if that cannot be.
@@ -101,14 +103,17 @@ class Units {
   /// The result of a unit that has run. Throws Error if its file is damaged or belongs to other parameters: results of
   /// different studies are never mixed.
   [[nodiscard]] std::optional<Json> result(const Unit& unit) const {
-    const std::filesystem::path path = file(unit);
-    if (!std::filesystem::exists(path)) return std::nullopt;
-    const Json document = Json::parse(vantage::read_file(path, 1u << 28), nullptr, false);
-    if (!document.is_object() || !document.contains("parameters") || !document.contains("result"))
-      throw vantage::Error(path.string(), "this is no result of a unit", "a file that this study wrote; delete it to run the unit again");
-    if (document["parameters"] != unit.parameters)
-      throw vantage::Error(path.string(), "made with " + document["parameters"].dump(), unit.parameters.dump() + "; take another --out");
-    return document["result"];
+    const std::optional<Json> document = read(unit);
+    return document ? std::optional((*document)["result"]) : std::nullopt;
+  }
+
+  /// The machine's load average when the busiest of these units began, of those that have run: well above what the
+  /// study's own threads make, its times are worth little.
+  [[nodiscard]] double busiest(std::span<const Unit> units) const {
+    double most = 0;
+    for (const Unit& u : units)
+      if (const auto document = read(u)) most = std::max(most, document->value("load_average", 0.0));
+    return most;
   }
 
   /// Runs f(unit) -> Json, one at a time, for the units of the shard that have no result yet, and writes what it gives.
@@ -126,7 +131,9 @@ class Units {
       if (result(unit)) continue;
       const Alone alone(folder_);
       if (result(unit)) continue;  // somebody else's, while we waited
-      const Json document = {{"parameters", unit.parameters}, {"result", f(unit)}};
+      double load = 0;
+      if (::getloadavg(&load, 1) != 1) load = 0;
+      const Json document = {{"parameters", unit.parameters}, {"load_average", load}, {"result", f(unit)}};
       vantage::write_file(file(unit), document.dump(1) + "\n");
       ++ran;
       const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -136,6 +143,18 @@ class Units {
   }
 
  private:
+  [[nodiscard]] std::optional<Json> read(const Unit& unit) const {
+    const std::filesystem::path path = file(unit);
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    Json document = Json::parse(vantage::read_file(path, 1u << 28), nullptr, false);
+    if (!document.is_object() || !document.contains("parameters") || !document.contains("result"))
+      throw vantage::Error(path.string(), "this is no result of a unit",
+                           "a file that this study wrote; delete it to run the unit again");
+    if (document["parameters"] != unit.parameters)
+      throw vantage::Error(path.string(), "made with " + document["parameters"].dump(),
+                           unit.parameters.dump() + "; take another --out");
+    return document;
+  }
   [[nodiscard]] std::filesystem::path file(const Unit& unit) const { return folder_ / (unit.name + ".json"); }
   static void check_names(std::span<const Unit> units) {
     std::set<std::string_view> names;

@@ -23,11 +23,14 @@
 #include <vantage/concepts/policy.hpp>
 #include <vantage/concepts/preset.hpp>
 #include <vantage/concepts/world.hpp>
+#include <vantage/maps/field/accumulated.hpp>
 #include <vantage/maps/field/batch.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
 #include <vantage/maps/field/committee.hpp>
+#include <vantage/maps/field/decompress.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/full.hpp>
+#include <vantage/maps/field/hyperparameters.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/interest.hpp>
 #include <vantage/maps/field/kernel.hpp>
@@ -36,6 +39,7 @@
 #include <vantage/maps/field/merging.hpp>
 #include <vantage/maps/field/methods.hpp>
 #include <vantage/maps/field/nd_tree.hpp>
+#include <vantage/maps/field/node_prior.hpp>
 #include <vantage/maps/field/point_kernel.hpp>
 #include <vantage/maps/field/presets.hpp>
 #include <vantage/maps/field/prior.hpp>

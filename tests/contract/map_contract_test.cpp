@@ -46,8 +46,10 @@ M after(std::size_t measurements, M map = MapFixture<M>::make()) {
 }
 template <class M>
 M large() {
-  if constexpr (requires { MapFixture<M>::large(); }) return MapFixture<M>::large();
-  else return MapFixture<M>::make();
+  if constexpr (requires { MapFixture<M>::large(); })
+    return MapFixture<M>::large();
+  else
+    return MapFixture<M>::make();
 }
 template <class M>
 std::vector<double> forecast(const M& map, Views given, Views views) {
@@ -66,9 +68,7 @@ template <class M>
 class MapContract : public testing::Test {};
 TYPED_TEST_SUITE(MapContract, Suite<PersistentMaps>);
 
-TYPED_TEST(MapContract, LearnsSomething) {
-  EXPECT_NE(bytes(after<TypeParam>(0)), bytes(after<TypeParam>(1)));
-}
+TYPED_TEST(MapContract, LearnsSomething) { EXPECT_NE(bytes(after<TypeParam>(0)), bytes(after<TypeParam>(1))); }
 
 TYPED_TEST(MapContract, ARefusedMeasurementLeavesItUnchanged) {
   TypeParam map = after<TypeParam>(2);
@@ -113,7 +113,8 @@ TYPED_TEST(MapContract, RefusesWhatIsCutShort) {
   TypeParam map = after<TypeParam>(1);
   const auto before = bytes(map);
   for (std::size_t k = 0; k < 24; ++k) {  // the first bytes, where the sizes are, and samples of the rest
-    const std::size_t length = k < 12 ? k * std::min<std::size_t>(8, saved.size() / 12) : saved.size() - 1 - (k - 12) * (saved.size() / 13);
+    const std::size_t length =
+        k < 12 ? k * std::min<std::size_t>(8, saved.size() / 12) : saved.size() - 1 - (k - 12) * (saved.size() / 13);
     Source source(std::span<const std::byte>(saved).first(length));
     EXPECT_THROW(map.load(source), Error) << length << " of " << saved.size() << " bytes";
     EXPECT_EQ(bytes(map), before) << length;

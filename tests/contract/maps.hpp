@@ -16,15 +16,15 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/field_image.hpp>
 #include <vantage/loop/carry.hpp>
-#include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/latent.hpp>
 #include <vantage/maps/field/matern.hpp>
+#include <vantage/maps/field/methods.hpp>
 
 #include "lists.hpp"
 
-// Every map, and how to try it. A new map is one line in a list and a MapFixture; the contract suites, the matrix and the
-// static product follow.
+// Every map, and how to try it. A new map is one line in a list and a MapFixture; the contract suites, the matrix and
+// the static product follow.
 namespace vantage {
 namespace test {
 struct Saving;  ///< a need of the tests' own: the suite of the map contract compares bytes
@@ -35,20 +35,18 @@ inline constexpr bool offers<M, test::Saving> = Persistent<M>;
 
 namespace vantage::test {
 
-using OursMap = IntegralGp<>;
-using FixedPointMap = IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>>;
-using IndependentMap = IntegralGp<SquaredExponential, CellAverage, Diagonal, Fixed<>>;
-using IndependentMergingMap = IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>;
 using CarryMap = Carry<archetype::FullMap, archetype::Persistent<>>;
+using OursMap = Ours<>;
+using LatentMap = Ours<preset::thesis, Latent<>>;
+using MaternMap = IntegralGp<Matern32>;
 
-using LatentMap = IntegralGp<SquaredExponential, CellAverage, Latent<>, Merging<>>;
-using MaternMap = IntegralGp<Matern32, CellAverage, Full<>, Merging<>>;
-
-using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
-                  FixedPointMap, IndependentMap, IndependentMergingMap, LatentMap, MaternMap>;
+using Maps =
+    List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
+         Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
-/// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good ones; `refused()`, bad ones with their names; `views()`, from which
-/// it may be asked; `World`; and whether measurements are possible straight down only.
+/// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
+/// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether
+/// measurements are possible straight down only.
 template <class M>
 struct MapFixture;
 
@@ -60,34 +58,41 @@ struct MapFixture<M> {
   using World = archetype::World;
   static constexpr bool looks_down_only = false;
   static M make() { return M{}; }
-  static archetype::Look measurement(std::size_t k) { return {nadir(k % 3 == 0 ? -1 : 1, 0.1 * static_cast<double>(k), 1)}; }
+  static archetype::Look measurement(std::size_t k) {
+    return {nadir(k % 3 == 0 ? -1 : 1, 0.1 * static_cast<double>(k), 1)};
+  }
   static std::vector<std::pair<std::string, archetype::Look>> refused() {
     View scaled = nadir(0, 0, 1);
     scaled.T_W_C.linear() *= 2;
     return {{"NaN", {nadir(nan, 0, 1)}}, {"infinite", {nadir(0, infinity, 1)}}, {"scaled", {scaled}}};
   }
   static std::vector<View> views() {
-    return {nadir(-0.5, 0, 1), nadir(0.5, 0, 1), look_at({2, 2, 2}, {0, 0, 0}), look_at({0, 0, -1}, {0, 0, 1}), nadir(5, 5, 0.5)};
+    return {nadir(-0.5, 0, 1), nadir(0.5, 0, 1), look_at({2, 2, 2}, {0, 0, 0}), look_at({0, 0, -1}, {0, 0, 1}),
+            nadir(5, 5, 0.5)};
   }
 };
 
 template <class Planned, class... Riders>
 struct MapFixture<Carry<Planned, Riders...>> : MapFixture<Planned> {
-  static Carry<Planned, Riders...> make() { return Carry<Planned, Riders...>(MapFixture<Planned>::make(), MapFixture<Riders>::make()...); }
+  static Carry<Planned, Riders...> make() {
+    return Carry<Planned, Riders...>(MapFixture<Planned>::make(), MapFixture<Riders>::make()...);
+  }
 };
 
 /// A UAV with a gimbal above a wavy field: wherever it is, it looks straight down.
 struct WavyWorld {
   NadirSensor sensor = {.half_angle_rad = deg(45), .pixels = 20};
   std::optional<FieldImage> observe(const View& view) {
-    const Eigen::Vector3d p = view.position().cwiseMax(Eigen::Vector3d(0, 0, 0.5)).cwiseMin(Eigen::Vector3d(20, 20, 100));
+    const Eigen::Vector3d p =
+        view.position().cwiseMax(Eigen::Vector3d(0, 0, 0.5)).cwiseMin(Eigen::Vector3d(20, 20, 100));
     FieldImage z{nadir(p.x(), p.y(), p.z()), {}, {}};
     z.footprint = sensor.footprint(z.view);
     z.values.resize(sensor.pixels, sensor.pixels);
     for (Eigen::Index r = 0; r < z.values.rows(); ++r)
       for (Eigen::Index c = 0; c < z.values.cols(); ++c) {
         const Eigen::Vector2d at = z.footprint.min() + z.footprint.sizes().cwiseProduct(Eigen::Vector2d(
-                                       (static_cast<double>(c) + 0.5) / sensor.pixels, (static_cast<double>(r) + 0.5) / sensor.pixels));
+                                                           (static_cast<double>(c) + 0.5) / sensor.pixels,
+                                                           (static_cast<double>(r) + 0.5) / sensor.pixels));
         z.values(r, c) = 0.5 + 0.4 * std::sin(0.5 * at.x()) * std::cos(0.3 * at.y());
       }
     return z;
@@ -100,7 +105,8 @@ struct FieldFixture {
   static constexpr bool looks_down_only = true;
   static FieldImage measurement(std::size_t k) {
     WavyWorld world;
-    return *world.observe(nadir(2.5 + 5 * static_cast<double>(k % 4), 2.5 + 5 * static_cast<double>(k / 4 % 4), 2.5 + 0.25 * static_cast<double>(k % 3)));
+    return *world.observe(nadir(2.5 + 5 * static_cast<double>(k % 4), 2.5 + 5 * static_cast<double>(k / 4 % 4),
+                                2.5 + 0.25 * static_cast<double>(k % 3)));
   }
   static std::vector<std::pair<std::string, FieldImage>> refused() {
     const FieldImage good = measurement(1);
@@ -122,7 +128,7 @@ struct FieldFixture {
 template <SeparableKernel Kernel, class Cells, class Belief, class Resolution, class Sensor>
 struct MapFixture<IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>> : FieldFixture {
   using M = IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>;
-  static M make(int depth = 4) { return M(typename M::Config{.tree = {.depth = depth}}); }
+  static M make(int depth = 4) { return M(typename M::Config{.tree = {.depth = depth}, .prior_mean = 0.75}); }
   static M large() { return make(5); }
 };
 

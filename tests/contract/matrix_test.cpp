@@ -22,22 +22,36 @@ namespace {
 struct Loop {
   std::size_t map = 0, utility = 0, sampler = 0, selector = 0;
 };
-constexpr std::size_t n_maps = Maps::size, n_utilities = Utilities::size, n_samplers = Samplers::size, n_selectors = Selectors::size;
+constexpr std::size_t n_maps = Maps::size, n_utilities = Utilities::size, n_samplers = Samplers::size,
+                      n_selectors = Selectors::size;
 template <std::size_t Rows, std::size_t Columns>
 using Table = std::array<std::array<bool, Columns>, Rows>;
 
 template <class M, class P, class Role>
 constexpr bool fits() {
-  if constexpr (!needs_met<M, P>) return false;
-  else return Role::template fits<P, M>;
+  if constexpr (!needs_met<M, P>)
+    return false;
+  else
+    return Role::template fits<P, M>;
 }
-struct AsUtility { template <class P, class M> static constexpr bool fits = UtilityFor<P, M>; };
-struct AsSampler { template <class P, class M> static constexpr bool fits = SamplerFor<P, M>; };
-struct AsSelector { template <class P, class M> static constexpr bool fits = SelectorFor<P, M>; };
+struct AsUtility {
+  template <class P, class M>
+  static constexpr bool fits = UtilityFor<P, M>;
+};
+struct AsSampler {
+  template <class P, class M>
+  static constexpr bool fits = SamplerFor<P, M>;
+};
+struct AsSelector {
+  template <class P, class M>
+  static constexpr bool fits = SelectorFor<P, M>;
+};
 
 template <class Role, class... Ms, class... Ps>
 constexpr auto table(List<Ms...>, List<Ps...>) {
-  const auto row = []<class M>(std::type_identity<M>) { return std::array<bool, sizeof...(Ps)>{fits<M, Ps, Role>()...}; };
+  const auto row = []<class M>(std::type_identity<M>) {
+    return std::array<bool, sizeof...(Ps)>{fits<M, Ps, Role>()...};
+  };
   return Table<sizeof...(Ms), sizeof...(Ps)>{row(std::type_identity<Ms>{})...};
 }
 constexpr auto utility_fits = table<AsUtility>(Maps{}, Utilities{});
@@ -104,7 +118,8 @@ void run_loop() {
   using Sa = typename At<l.sampler, Samplers>::type;
   using Se = typename At<l.selector, Selectors>::type;
   static_assert(Composable<M, U, Sa, Se>);
-  SCOPED_TRACE(testing::Message() << "map " << l.map << ", utility " << l.utility << ", sampler " << l.sampler << ", selector " << l.selector);
+  SCOPED_TRACE(testing::Message() << "map " << l.map << ", utility " << l.utility << ", sampler " << l.sampler
+                                  << ", selector " << l.selector);
   // A sensor that can only look down, asked what it would see looking sideways, must say so and not make it up.
   if constexpr (MapFixture<M>::looks_down_only && std::same_as<U, VarianceReduction> && !looks_down<Sa>) {
     EXPECT_THROW((three_steps<M, U, Sa, Se>()), Error);
@@ -116,7 +131,8 @@ void run_loop() {
 }
 
 TEST(Matrix, EveryPairThatFitsGoesThreeSteps) {
-  []<std::size_t... Ks>(std::index_sequence<Ks...>) { (run_loop<Ks>(), ...); }(std::make_index_sequence<choice.count>{});
+  []<std::size_t... Ks>(std::index_sequence<Ks...>) { (run_loop<Ks>(), ...); }
+  (std::make_index_sequence<choice.count>{});
 }
 
 TEST(Matrix, NoPairIsLeftOut) {
@@ -133,13 +149,19 @@ TEST(Matrix, NoPairIsLeftOut) {
   };
   for (std::size_t u = 0; u < n_utilities; ++u)
     for (std::size_t s = 0; s < n_samplers; ++s)
-      EXPECT_EQ(c.utility_sampler[u][s], some_map([&](std::size_t m) { return utility_fits[m][u] && sampler_fits[m][s]; })) << u << " " << s;
+      EXPECT_EQ(c.utility_sampler[u][s],
+                some_map([&](std::size_t m) { return utility_fits[m][u] && sampler_fits[m][s]; }))
+          << u << " " << s;
   for (std::size_t u = 0; u < n_utilities; ++u)
     for (std::size_t d = 0; d < n_selectors; ++d)
-      EXPECT_EQ(c.utility_selector[u][d], some_map([&](std::size_t m) { return utility_fits[m][u] && selector_fits[m][d]; })) << u << " " << d;
+      EXPECT_EQ(c.utility_selector[u][d],
+                some_map([&](std::size_t m) { return utility_fits[m][u] && selector_fits[m][d]; }))
+          << u << " " << d;
   for (std::size_t s = 0; s < n_samplers; ++s)
     for (std::size_t d = 0; d < n_selectors; ++d)
-      EXPECT_EQ(c.sampler_selector[s][d], some_map([&](std::size_t m) { return sampler_fits[m][s] && selector_fits[m][d]; })) << s << " " << d;
+      EXPECT_EQ(c.sampler_selector[s][d],
+                some_map([&](std::size_t m) { return sampler_fits[m][s] && selector_fits[m][d]; }))
+          << s << " " << d;
 }
 
 }  // namespace

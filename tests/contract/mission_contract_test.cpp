@@ -42,8 +42,10 @@ TYPED_TEST(StopRuleContract, GoesOnAtTheStartAndStopsAtLast) {
 TYPED_TEST(StopRuleContract, WhatRemainsIsNotNegativeAndFalls) {
   const auto remaining_s = [&](double elapsed_s) {
     Situation q{.elapsed_s = elapsed_s};
-    if constexpr (requires { this->stop.remaining_s(q); }) return static_cast<double>(this->stop.remaining_s(q));
-    else return q.remaining_s;  // unknown: infinite
+    if constexpr (requires { this->stop.remaining_s(q); })
+      return static_cast<double>(this->stop.remaining_s(q));
+    else
+      return q.remaining_s;  // unknown: infinite
   };
   double before = remaining_s(0);
   for (const double elapsed_s : {1.0, 100.0, 300.0, 1e6}) {
@@ -111,7 +113,8 @@ struct WorldOf {
     }
   }
 };
-using Worlds = List<WorldOf<archetype::World, archetype::FullMap>, WorldOf<WavyWorld, OursMap>, WorldOf<FieldWorld<>, OursMap>>;
+using Worlds =
+    List<WorldOf<archetype::World, archetype::FullMap>, WorldOf<WavyWorld, OursMap>, WorldOf<FieldWorld<>, OursMap>>;
 
 template <class W>
 class WorldContract : public testing::Test {

@@ -37,26 +37,39 @@ using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, archetype::S
 using Selectors = List<ArgMax, InOrder, PerFlightTime, MinusCost<>, TravelTradeoff<>, MinusCost<archetype::Router>,
                        archetype::Selector>;
 using Routers = List<StraightLine, archetype::Router>;
-using StopRules = List<MissionTime, Measurements, Travel, CoverageReached, UtilityBelow, AnyOf<MissionTime, CoverageReached>,
-                       archetype::StopRule>;
+using StopRules = List<MissionTime, Measurements, Travel, CoverageReached, UtilityBelow,
+                       AnyOf<MissionTime, CoverageReached>, archetype::StopRule>;
 using Clocks = List<MeasuredClock, ModelledClock, WallClock, archetype::Clock>;
 
 template <class P>
 P make() {
   const Box2 field = Lattice::field_20m();
-  if constexpr (std::same_as<P, MeanUncertainty>) return MeanUncertainty(Camera::from_fov(8, 6, deg(60)));
-  else if constexpr (std::same_as<P, Lattice>) return Lattice({.layers = {Layer::inside(field, 2, 5, 4), Layer::inside(field, 5, 2, 3)}});
-  else if constexpr (std::same_as<P, Lawnmower>) return Lawnmower({.area = field});
-  else if constexpr (std::same_as<P, Hemisphere>) return Hemisphere({.centre = {10, 10, 0}, .radius_m = 3, .candidates = 10});
-  else if constexpr (std::same_as<P, Spiral>) return Spiral({.centre = {10, 10, 0}, .radius_m = 3});
-  else if constexpr (std::same_as<P, Pool>) return Pool({nadir(2.5, 2.5, 2.5), nadir(10, 10, 2), nadir(17.5, 3, 5), nadir(19.9, 19.9, 1), nadir(40, 40, 2)});
-  else if constexpr (std::same_as<P, MissionTime>) return MissionTime(300);
-  else if constexpr (std::same_as<P, Measurements>) return Measurements(10);
-  else if constexpr (std::same_as<P, Travel>) return Travel(100);
-  else if constexpr (std::same_as<P, CoverageReached>) return CoverageReached(0.9);
-  else if constexpr (std::same_as<P, UtilityBelow>) return UtilityBelow(0.5);
-  else if constexpr (std::same_as<P, AnyOf<MissionTime, CoverageReached>>) return AnyOf{MissionTime(300), CoverageReached(0.9)};
-  else return P{};
+  if constexpr (std::same_as<P, MeanUncertainty>)
+    return MeanUncertainty(Camera::from_fov(8, 6, deg(60)));
+  else if constexpr (std::same_as<P, Lattice>)
+    return Lattice({.layers = {Layer::inside(field, 2, 5, 4), Layer::inside(field, 5, 2, 3)}});
+  else if constexpr (std::same_as<P, Lawnmower>)
+    return Lawnmower({.area = field});
+  else if constexpr (std::same_as<P, Hemisphere>)
+    return Hemisphere({.centre = {10, 10, 0}, .radius_m = 3, .candidates = 10});
+  else if constexpr (std::same_as<P, Spiral>)
+    return Spiral({.centre = {10, 10, 0}, .radius_m = 3});
+  else if constexpr (std::same_as<P, Pool>)
+    return Pool({nadir(2.5, 2.5, 2.5), nadir(10, 10, 2), nadir(17.5, 3, 5), nadir(19.9, 19.9, 1), nadir(40, 40, 2)});
+  else if constexpr (std::same_as<P, MissionTime>)
+    return MissionTime(300);
+  else if constexpr (std::same_as<P, Measurements>)
+    return Measurements(10);
+  else if constexpr (std::same_as<P, Travel>)
+    return Travel(100);
+  else if constexpr (std::same_as<P, CoverageReached>)
+    return CoverageReached(0.9);
+  else if constexpr (std::same_as<P, UtilityBelow>)
+    return UtilityBelow(0.5);
+  else if constexpr (std::same_as<P, AnyOf<MissionTime, CoverageReached>>)
+    return AnyOf{MissionTime(300), CoverageReached(0.9)};
+  else
+    return P{};
 }
 
 /// Whether all that a sampler proposes looks straight down, as the field maps' sensor must.

@@ -29,7 +29,8 @@ TYPED_TEST_SUITE(RouterContract, Suite<Routers>);
 TYPED_TEST(RouterContract, OneLengthAGoalNoShorterThanTheStraightLine) {
   const std::vector<double> lengths_m = this->router.lengths_m(this->map, this->from, this->goals);
   ASSERT_EQ(lengths_m.size(), this->goals.size());
-  for (std::size_t i = 0; i < lengths_m.size(); ++i) EXPECT_GE(lengths_m[i], distance_m(this->from, this->goals[i]) - 1e-9);
+  for (std::size_t i = 0; i < lengths_m.size(); ++i)
+    EXPECT_GE(lengths_m[i], distance_m(this->from, this->goals[i]) - 1e-9);
   EXPECT_EQ(lengths_m[0], 0);
   EXPECT_TRUE(this->router.lengths_m(this->map, this->from, {}).empty());
 }

@@ -48,7 +48,8 @@ TYPED_TEST(SamplerContract, ProposesValidViews) {
     for (const View& v : c.views) EXPECT_NO_THROW(check_view(v, "candidate"));
     EXPECT_TRUE(c.utilities.empty() || c.utilities.size() == c.views.size());
     EXPECT_TRUE(c.parent.empty() || c.parent.size() == c.views.size());
-    for (std::size_t i = 0; i < c.parent.size(); ++i) EXPECT_TRUE(c.parent[i] >= -1 && c.parent[i] < static_cast<int>(i));
+    for (std::size_t i = 0; i < c.parent.size(); ++i)
+      EXPECT_TRUE(c.parent[i] >= -1 && c.parent[i] < static_cast<int>(i));
   }
 }
 

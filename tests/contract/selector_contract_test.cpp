@@ -64,7 +64,8 @@ TYPED_TEST(SelectorContract, DecidesForACandidateWithFiniteTravel) {
 
 TYPED_TEST(SelectorContract, TiesGoToTheLowestIndex) {
   // Four views at the same distance (by whatever norm) with the same utility.
-  const Candidates c{.views = {nadir(3, 0, 1), nadir(0, 3, 1), nadir(-3, 0, 1), nadir(0, -3, 1)}, .utilities = {1, 1, 1, 1}};
+  const Candidates c{.views = {nadir(3, 0, 1), nadir(0, 3, 1), nadir(-3, 0, 1), nadir(0, -3, 1)},
+                     .utilities = {1, 1, 1, 1}};
   const std::optional<Decision> d = select(this->selector, {.here = nadir(0, 0, 1)}, c);
   ASSERT_TRUE(d);
   EXPECT_EQ(d->index, 0u);

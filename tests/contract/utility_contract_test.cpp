@@ -23,7 +23,9 @@ namespace {
 struct Recording {
   std::vector<View> views;
   template <Map M>
-  Candidates sample(const M&, const Situation&, const Score&, Rng&) const { return {.views = views}; }
+  Candidates sample(const M&, const Situation&, const Score&, Rng&) const {
+    return {.views = views};
+  }
 };
 struct Reporting {
   std::vector<double>* scores;
@@ -71,7 +73,8 @@ class UtilityContract : public testing::Test {};
 TYPED_TEST_SUITE(UtilityContract, Suite<Utilities>);
 
 TYPED_TEST(UtilityContract, IsFiniteWithAndWithoutHistory) {
-  for (const std::vector<View>& visited : {std::vector<View>{}, std::vector<View>{nadir(0.5, 0, 1), nadir(-0.5, 0.2, 1)}})
+  for (const std::vector<View>& visited :
+       {std::vector<View>{}, std::vector<View>{nadir(0.5, 0, 1), nadir(-0.5, 0.2, 1)}})
     for (const double u : scores<TypeParam>(some_views(), visited).batch) EXPECT_TRUE(std::isfinite(u));
 }
 
@@ -107,7 +110,7 @@ TEST(Uninformed, IsUniformAndDrawsAnewEachStep) {
     ASSERT_LT(x, 1);
     mean += x / 20000, square += x * x / 20000;
   }
-  EXPECT_NEAR(mean, 0.5, 4 * std::sqrt(1.0 / 12 / 20000));                // four standard errors
+  EXPECT_NEAR(mean, 0.5, 4 * std::sqrt(1.0 / 12 / 20000));  // four standard errors
   EXPECT_NEAR(square, 1.0 / 3, 4 * std::sqrt(4.0 / 45 / 20000));
   EXPECT_NE(u, scores<Uninformed>(views, {}, 2).batch);
 }

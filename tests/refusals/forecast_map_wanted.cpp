@@ -12,4 +12,5 @@
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/utility/variance_reduction.hpp>
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::VarianceReduction{}, vantage::archetype::Sampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::VarianceReduction{}, vantage::archetype::Sampler{},
+                      vantage::archetype::Selector{}};

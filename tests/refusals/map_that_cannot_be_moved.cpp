@@ -16,4 +16,5 @@ struct MyMap {
   vantage::Box3 bounds() const { return {}; }
 };
 
-vantage::NbvLoop loop{MyMap{}, vantage::archetype::ViewUtility{}, vantage::archetype::Sampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{MyMap{}, vantage::archetype::ViewUtility{}, vantage::archetype::Sampler{},
+                      vantage::archetype::Selector{}};

@@ -21,4 +21,5 @@ struct FreeSpace {
   }
 };
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::archetype::ViewUtility{}, FreeSpace{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::archetype::ViewUtility{}, FreeSpace{},
+                      vantage::archetype::Selector{}};

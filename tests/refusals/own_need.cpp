@@ -17,4 +17,5 @@ struct Thermometer {
   double operator()(const auto& map, const vantage::View& view) const { return map.temperature(view.position()); }
 };
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, Thermometer{}, vantage::archetype::Sampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, Thermometer{}, vantage::archetype::Sampler{},
+                      vantage::archetype::Selector{}};

@@ -4,10 +4,10 @@
 // expect: MyMap
 // expect: all maps of a Carry must learn from the same type of Measurement
 #include <vantage/concepts/archetypes.hpp>
+#include <vantage/loop/carry.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/loop/stop_rules.hpp>
-#include <vantage/loop/carry.hpp>
 
 struct MyMap {
   using Measurement = int;

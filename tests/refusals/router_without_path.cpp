@@ -12,7 +12,10 @@
 #include <vantage/selector/travel_tradeoff.hpp>
 
 struct MyRouter {
-  std::vector<double> lengths_m(const auto&, const vantage::View&, vantage::Views goals) const { return std::vector<double>(goals.size()); }
+  std::vector<double> lengths_m(const auto&, const vantage::View&, vantage::Views goals) const {
+    return std::vector<double>(goals.size());
+  }
 };
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::archetype::ViewUtility{}, vantage::archetype::Sampler{}, vantage::TravelTradeoff{MyRouter{}}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::archetype::ViewUtility{}, vantage::archetype::Sampler{},
+                      vantage::TravelTradeoff{MyRouter{}}};

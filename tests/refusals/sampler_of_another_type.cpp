@@ -10,7 +10,11 @@
 #include <vantage/loop/stop_rules.hpp>
 
 struct MySampler {
-  std::vector<vantage::View> sample(const auto&, const vantage::Situation&, const vantage::Score&, vantage::Rng&) const { return {}; }
+  std::vector<vantage::View> sample(const auto&, const vantage::Situation&, const vantage::Score&,
+                                    vantage::Rng&) const {
+    return {};
+  }
 };
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::archetype::ViewUtility{}, MySampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::archetype::ViewUtility{}, MySampler{},
+                      vantage::archetype::Selector{}};

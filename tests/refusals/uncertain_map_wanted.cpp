@@ -11,4 +11,5 @@
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::MeanUncertainty{}, vantage::archetype::Sampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, vantage::MeanUncertainty{}, vantage::archetype::Sampler{},
+                      vantage::archetype::Selector{}};

@@ -14,4 +14,5 @@ struct MyUtility {
   double operator()(const auto&, const vantage::View&) { return ++calls; }
 };
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, MyUtility{}, vantage::archetype::Sampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, MyUtility{}, vantage::archetype::Sampler{},
+                      vantage::archetype::Selector{}};

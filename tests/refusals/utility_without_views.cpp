@@ -13,4 +13,5 @@ struct MyUtility {
   double operator()(const Eigen::Vector3d& position) const { return position.z(); }
 };
 
-vantage::NbvLoop loop{vantage::archetype::Map{}, MyUtility{}, vantage::archetype::Sampler{}, vantage::archetype::Selector{}};
+vantage::NbvLoop loop{vantage::archetype::Map{}, MyUtility{}, vantage::archetype::Sampler{},
+                      vantage::archetype::Selector{}};

@@ -24,8 +24,9 @@ constexpr int offered = (0 + ... + offers<M, Ns>);
 /// Offers all of Ns, and nothing else of what there is to offer.
 template <class M, class... Ns>
 constexpr bool offers_just =
-    Map<M> && offered<M, Ns...> == sizeof...(Ns) &&
-    offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, LowConfidence, Fisher> == sizeof...(Ns);
+    Map<M>&& offered<M, Ns...> == sizeof...(Ns) &&
+    offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, LowConfidence, Fisher> ==
+        sizeof...(Ns);
 
 // Archetypes: each adds one capability to a plain map.
 static_assert(offers_just<archetype::Map>);
@@ -38,7 +39,8 @@ static_assert(offers_just<archetype::Occupied<>, Occupancy>);
 static_assert(offers_just<archetype::Frontiers<>, Occupancy, Frontier>);
 static_assert(offers_just<archetype::Field<>, Field>);
 static_assert(offers_just<archetype::Fisher<>, Fisher>);
-static_assert(offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, Fisher>);
+static_assert(
+    offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, Fisher>);
 static_assert(RefinableMap<archetype::Refinable<>> && !RefinableMap<archetype::Map>);
 static_assert(Persistent<archetype::Persistent<>> && !Persistent<archetype::Map>);
 
@@ -51,7 +53,7 @@ static_assert(!Persistent<Carry<archetype::Map, archetype::FullMap>>);
 
 // Integral GP: Uncertain, Field, Forecast (and coverage), whatever its policies.
 template <class M>
-constexpr bool field_map = offers_just<M, Uncertainty, Field, Forecast, Coverage> && Persistent<M>;
+constexpr bool field_map = offers_just<M, Uncertainty, Field, Forecast, Coverage>&& Persistent<M>;
 static_assert(field_map<IntegralGp<>>);
 static_assert(field_map<IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>>>);
 static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>>);
@@ -88,7 +90,8 @@ struct MoveOnly : archetype::Map {
   MoveOnly(MoveOnly&&) = default;
   MoveOnly& operator=(MoveOnly&&) = default;
 };
-static_assert(!Map<int> && !Map<WithoutMeasurement> && !Map<WithoutRng> && !Map<WithoutBounds> && !Map<WithMutableBounds> && !Map<Immovable>);
+static_assert(!Map<int> && !Map<WithoutMeasurement> && !Map<WithoutRng> && !Map<WithoutBounds> &&
+              !Map<WithMutableBounds> && !Map<Immovable>);
 static_assert(Map<MoveOnly>);  // copies are nobody's business but a Carry's
 
 // Renders: a member that is not const, or draws something else, does not count.
@@ -110,7 +113,8 @@ struct NeedsOne {
 };
 static_assert(std::same_as<NeedsOf<NeedsTwo, int, NeedsOne>, Needs<Uncertainty, Field, Coverage>>);
 static_assert(std::same_as<NeedsOf<int>, Needs<>> && std::same_as<NeedsOf<>, Needs<>>);
-static_assert(needs_met<archetype::FullMap, NeedsTwo> && !needs_met<archetype::Uncertain<>, NeedsTwo> && needs_met<archetype::Map, int>);
+static_assert(needs_met<archetype::FullMap, NeedsTwo> && !needs_met<archetype::Uncertain<>, NeedsTwo> &&
+              needs_met<archetype::Map, int>);
 
 }  // namespace
 }  // namespace vantage

@@ -19,13 +19,21 @@ namespace {
 template <class M, class U, class Sa, class Se>
 constexpr bool as_stated = Composable<M, U, Sa, Se> == (needs_met<M, U> && needs_met<M, Sa> && needs_met<M, Se>);
 template <class M, class U, class Sa, class... Ses>
-constexpr bool selectors(List<Ses...>) { return (as_stated<M, U, Sa, Ses> && ...); }
+constexpr bool selectors(List<Ses...>) {
+  return (as_stated<M, U, Sa, Ses> && ...);
+}
 template <class M, class U, class... Sas>
-constexpr bool samplers(List<Sas...>) { return (selectors<M, U, Sas>(Selectors{}) && ...); }
+constexpr bool samplers(List<Sas...>) {
+  return (selectors<M, U, Sas>(Selectors{}) && ...);
+}
 template <class M, class... Us>
-constexpr bool utilities(List<Us...>) { return (samplers<M, Us>(Samplers{}) && ...); }
+constexpr bool utilities(List<Us...>) {
+  return (samplers<M, Us>(Samplers{}) && ...);
+}
 template <class... Ms>
-constexpr bool product(List<Ms...>) { return (utilities<Ms>(Utilities{}) && ...); }
+constexpr bool product(List<Ms...>) {
+  return (utilities<Ms>(Utilities{}) && ...);
+}
 static_assert(product(Maps{}));
 
 // Some of it by hand, so that the above is no tautology.
@@ -70,18 +78,24 @@ struct OnlyForField {
 static_assert(plans<archetype::Field<>, OnlyForField> && !plans<archetype::Map, OnlyForField>);
 
 // The three forms of a utility are told apart.
-static_assert(ViewUtility<archetype::ViewUtility, archetype::Map> && !HistoryUtility<archetype::ViewUtility, archetype::Map>);
-static_assert(HistoryUtility<archetype::HistoryUtility, archetype::Map> && !ViewUtility<archetype::HistoryUtility, archetype::Map>);
-static_assert(PreparedUtility<archetype::PreparedUtility, archetype::Map> && !ViewUtility<archetype::PreparedUtility, archetype::Map>);
+static_assert(ViewUtility<archetype::ViewUtility, archetype::Map> &&
+              !HistoryUtility<archetype::ViewUtility, archetype::Map>);
+static_assert(HistoryUtility<archetype::HistoryUtility, archetype::Map> &&
+              !ViewUtility<archetype::HistoryUtility, archetype::Map>);
+static_assert(PreparedUtility<archetype::PreparedUtility, archetype::Map> &&
+              !ViewUtility<archetype::PreparedUtility, archetype::Map>);
 
 // Stop rules, clocks, worlds and routers.
 static_assert(StopRuleFor<MissionTime, archetype::Map> && !StopRuleFor<CoverageReached, archetype::Map>);
 static_assert(StopRuleFor<CoverageReached, OursMap> && !StopRuleFor<double, archetype::Map>);
 static_assert(StopRuleFor<AnyOf<MissionTime, UtilityBelow>, archetype::Map>);
 static_assert(!StopRuleFor<AnyOf<MissionTime, CoverageReached>, archetype::Map>);
-static_assert(ClockLike<MeasuredClock> && ClockLike<ModelledClock> && ClockLike<WallClock> && ClockLike<archetype::Clock> && !ClockLike<double>);
-static_assert(WorldFor<archetype::World, archetype::Map> && !WorldFor<archetype::World, OursMap> && WorldFor<WavyWorld, OursMap>);
-static_assert(RouterFor<StraightLine, archetype::Map> && RouterFor<archetype::Router, OursMap> && !RouterFor<NoRouter, archetype::Map>);
+static_assert(ClockLike<MeasuredClock> && ClockLike<ModelledClock> && ClockLike<WallClock> &&
+              ClockLike<archetype::Clock> && !ClockLike<double>);
+static_assert(WorldFor<archetype::World, archetype::Map> && !WorldFor<archetype::World, OursMap> &&
+              WorldFor<WavyWorld, OursMap>);
+static_assert(RouterFor<StraightLine, archetype::Map> && RouterFor<archetype::Router, OursMap> &&
+              !RouterFor<NoRouter, archetype::Map>);
 
 // The loop deduces its four policies.
 static_assert(std::is_same_v<decltype(NbvLoop{archetype::Map{}, Uninformed{}, Spiral{}, MinusCost{}}),

@@ -41,8 +41,10 @@ class Hemisphere {
     Check check("Hemisphere::Config");
     check(config.centre.allFinite(), "centre", concat("[", config.centre.transpose(), "]"), "finite");
     check.positive("radius_m", config.radius_m);
-    check(config.max_polar_rad > 0 && config.max_polar_rad <= deg(90), "max_polar_rad", config.max_polar_rad, "in (0, pi / 2]");
-    check(config.max_turn_rad > 0 && config.max_turn_rad <= std::numbers::pi, "max_turn_rad", config.max_turn_rad, "in (0, pi]");
+    check(config.max_polar_rad > 0 && config.max_polar_rad <= deg(90), "max_polar_rad", config.max_polar_rad,
+          "in (0, pi / 2]");
+    check(config.max_turn_rad > 0 && config.max_turn_rad <= std::numbers::pi, "max_turn_rad", config.max_turn_rad,
+          "in (0, pi]");
     check(config.candidates >= 1 && config.candidates <= 1 << 20, "candidates", config.candidates, "1 to 1048576");
     check.done();
   }
@@ -68,7 +70,9 @@ class Hemisphere {
   struct Cap {
     Eigen::Vector3d axis;
     double angle_rad;
-    [[nodiscard]] bool contains(const Eigen::Vector3d& direction) const { return direction.dot(axis) >= std::cos(angle_rad); }
+    [[nodiscard]] bool contains(const Eigen::Vector3d& direction) const {
+      return direction.dot(axis) >= std::cos(angle_rad);
+    }
   };
   /// Uniform in both caps; none if a thousand draws miss.
   static std::optional<Eigen::Vector3d> draw(const Cap& drawn, const Cap& other, Rng rng) {
@@ -76,7 +80,8 @@ class Hemisphere {
     if (between_rad > drawn.angle_rad + other.angle_rad) return std::nullopt;
     const Eigen::Vector3d u = drawn.axis.unitOrthogonal(), v = drawn.axis.cross(u);
     for (int attempt = 0; attempt < 1000; ++attempt) {
-      const double cosine = rng.uniform(std::cos(drawn.angle_rad), 1), sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
+      const double cosine = rng.uniform(std::cos(drawn.angle_rad), 1),
+                   sine = std::sqrt(std::max(0.0, 1 - cosine * cosine));
       const double azimuth_rad = rng.uniform(0, 2 * std::numbers::pi);
       const Eigen::Vector3d direction =
           cosine * drawn.axis + sine * (std::cos(azimuth_rad) * u + std::sin(azimuth_rad) * v);

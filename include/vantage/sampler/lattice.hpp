@@ -66,7 +66,8 @@ class Lattice {
     for (const Layer& layer : config.layers)
       for (int i = 0; i < layer.nx; ++i)
         for (int j = 0; j < layer.ny; ++j)
-          views_.push_back(nadir(position(layer.bounds, 0, i, layer.nx), position(layer.bounds, 1, j, layer.ny), layer.height_m));
+          views_.push_back(
+              nadir(position(layer.bounds, 0, i, layer.nx), position(layer.bounds, 1, j, layer.ny), layer.height_m));
   }
 
   template <Map M>

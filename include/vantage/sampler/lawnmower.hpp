@@ -20,12 +20,12 @@ class Lawnmower : public Pattern {
  public:
   enum class Corner { min_x_min_y, max_x_min_y, min_x_max_y, max_x_max_y };
   struct Config {
-    Box2 area;                           ///< to be covered [m]
-    double height_m = 2.5;               ///< > 0
-    double half_angle_rad = deg(45);     ///< of the sensor, in (0, pi / 2): footprints are 2 height tan(half angle) wide
-    double overlap = 0;                  ///< share of a footprint that its neighbour sees too, in [0, 1)
+    Box2 area;                        ///< to be covered [m]
+    double height_m = 2.5;            ///< > 0
+    double half_angle_rad = deg(45);  ///< of the sensor, in (0, pi / 2): footprints are 2 height tan(half angle) wide
+    double overlap = 0;               ///< share of a footprint that its neighbour sees too, in [0, 1)
     Corner start = Corner::min_x_min_y;
-    double reached = 0.25;               ///< a view is visited within this share of the distance to the next, in (0, 0.5)
+    double reached = 0.25;  ///< a view is visited within this share of the distance to the next, in (0, 0.5)
   };
   /// Throws Error naming every bad member, and for more than a million views.
   explicit Lawnmower(const Config& config) : Lawnmower(config, Axis(config, 0), Axis(config, 1)) {}
@@ -48,7 +48,8 @@ class Lawnmower : public Pattern {
     [[nodiscard]] double at(std::size_t i) const { return low + step * static_cast<double>(i); }
   };
 
-  Lawnmower(const Config& c, const Axis& x, const Axis& y) : Pattern(legs(c, x, y), c.reached * std::min(x.step, y.step)) {}
+  Lawnmower(const Config& c, const Axis& x, const Axis& y)
+      : Pattern(legs(c, x, y), c.reached * std::min(x.step, y.step)) {}
 
   static std::vector<View> legs(const Config& c, const Axis& x, const Axis& y) {
     if (x.count * y.count > 1'000'000)
@@ -60,7 +61,8 @@ class Lawnmower : public Pattern {
     for (std::size_t leg = 0; leg < y.count; ++leg) {
       const double y_m = y.at(from_top ? y.count - 1 - leg : leg);
       const bool leftward = from_right != (leg % 2 == 1);
-      for (std::size_t i = 0; i < x.count; ++i) views.push_back(nadir(x.at(leftward ? x.count - 1 - i : i), y_m, c.height_m));
+      for (std::size_t i = 0; i < x.count; ++i)
+        views.push_back(nadir(x.at(leftward ? x.count - 1 - i : i), y_m, c.height_m));
     }
     return views;
   }

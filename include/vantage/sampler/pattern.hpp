@@ -11,15 +11,16 @@
 
 namespace vantage {
 
-/// A fixed sequence of views: proposes the first that has not been visited yet, and nothing once all have been. It keeps
-/// no state, so it goes on after a crash by itself. A view counts as visited when a measurement was taken within
+/// A fixed sequence of views: proposes the first that has not been visited yet, and nothing once all have been. It
+/// keeps no state, so it goes on after a crash by itself. A view counts as visited when a measurement was taken within
 /// `reached_m` of it: robots do not arrive to the millimetre.
 class Pattern {
  public:
   template <Map M>
   Candidates sample(const M&, const Situation& q, const Score&, Rng&) const {
     for (const View& v : views_)
-      if (std::none_of(q.visited.begin(), q.visited.end(), [&](const View& p) { return distance_m(p, v) <= reached_m_; }))
+      if (std::none_of(q.visited.begin(), q.visited.end(),
+                       [&](const View& p) { return distance_m(p, v) <= reached_m_; }))
         return {.views = {v}};
     return {};
   }

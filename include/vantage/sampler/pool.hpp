@@ -25,7 +25,8 @@ class Pool {
   Candidates sample(const M&, const Situation& q, const Score&, Rng&) const {
     Candidates c;
     for (const View& v : views_)
-      if (std::none_of(q.visited.begin(), q.visited.end(), [&](const View& p) { return same_pose(p, v); })) c.views.push_back(v);
+      if (std::none_of(q.visited.begin(), q.visited.end(), [&](const View& p) { return same_pose(p, v); }))
+        c.views.push_back(v);
     return c;
   }
   [[nodiscard]] const std::vector<View>& views() const { return views_; }

@@ -26,11 +26,12 @@ class Spiral : public Pattern {
     double radius_m = 2;                               ///< > 0
     double max_polar_rad = deg(80);                    ///< where it ends, from straight above, in (0, pi / 2]
     int views = 10;                                    ///< 1 to 65536
-    double reached = 0.25;                             ///< a view is visited within this share of the spacing, in (0, 0.5)
+    double reached = 0.25;  ///< a view is visited within this share of the spacing, in (0, 0.5)
   };
   Spiral() : Spiral(Config{}) {}
   /// Throws Error naming every bad member.
-  explicit Spiral(const Config& config) : Pattern(turns(config), config.reached * config.radius_m * spacing_rad(config)) {}
+  explicit Spiral(const Config& config)
+      : Pattern(turns(config), config.reached * config.radius_m * spacing_rad(config)) {}
 
  private:
   /// Views on a whole sphere of this density, and the angle between neighbours there.

@@ -42,8 +42,9 @@ class MinusCost {
     check.done();
   }
   template <Map M>
-    requires RouterFor<Router, M>
-  std::optional<Decision> select(const M& map, const Situation& q, const Candidates& c, const Score&, Rng&) const {
+  requires RouterFor<Router, M> std::optional<Decision> select(const M& map, const Situation& q, const Candidates& c,
+                                                               const Score&, Rng&)
+  const {
     const std::vector<double> lengths_m = checked_lengths_m(router_, map, q.here, c.views);
     const auto best = first_best(c.views.size(), [&](std::size_t i) {
       return std::isfinite(lengths_m[i]) ? c.utilities[i] - config_.weight_per_m * lengths_m[i] : excluded;

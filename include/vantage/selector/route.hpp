@@ -20,7 +20,8 @@ std::vector<double> checked_lengths_m(const Router& router, const M& map, const 
     throw Error("Router::lengths_m", concat(lengths.size(), " lengths"), concat(goals.size(), ", one per goal"));
   for (std::size_t i = 0; i < lengths.size(); ++i)
     if (!(lengths[i] >= 0))
-      throw Error("Router::lengths_m", concat("length ", i, " is ", lengths[i]), ">= 0, infinity where there is no path");
+      throw Error("Router::lengths_m", concat("length ", i, " is ", lengths[i]),
+                  ">= 0, infinity where there is no path");
   return lengths;
 }
 

@@ -46,8 +46,9 @@ class TravelTradeoff {
     check.done();
   }
   template <Map M>
-    requires RouterFor<Router, M>
-  std::optional<Decision> select(const M& map, const Situation& q, const Candidates& c, const Score&, Rng&) const {
+  requires RouterFor<Router, M> std::optional<Decision> select(const M& map, const Situation& q, const Candidates& c,
+                                                               const Score&, Rng&)
+  const {
     const std::vector<double> lengths_m = checked_lengths_m(router_, map, q.here, c.views);
     const auto reachable = [&](std::size_t i) { return std::isfinite(lengths_m[i]); };
     double least = 0, sum_length_m = 0, sum_psi = 0;

@@ -10,8 +10,8 @@
 
 namespace vantage {
 
-/// A random utility, uniform in [0, 1): the baselines "Random" and "Uniform" of chapters 4 and 5. Needs no map. Within a
-/// step the same view always gets the same number, in whatever batch or order it is asked for.
+/// A random utility, uniform in [0, 1): the baselines "Random" and "Uniform" of chapters 4 and 5. Needs no map. Within
+/// a step the same view always gets the same number, in whatever batch or order it is asked for.
 struct Uninformed {
   template <Map M>
   auto prepare(const M&, const Situation&, Rng rng) const {

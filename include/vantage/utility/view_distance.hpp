@@ -44,9 +44,12 @@ struct ViewDistance {
         nearest = std::min(nearest, d);
         sum += d;
       }
-    if constexpr (std::same_as<Which, Nearest>) return nearest;
-    else if constexpr (std::same_as<Which, Mean>) return sum / static_cast<double>(n);
-    else return sum;
+    if constexpr (std::same_as<Which, Nearest>)
+      return nearest;
+    else if constexpr (std::same_as<Which, Mean>)
+      return sum / static_cast<double>(n);
+    else
+      return sum;
   }
 };
 

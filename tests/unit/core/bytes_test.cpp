@@ -101,8 +101,8 @@ TEST(Bytes, HostileSizesAllocateNothing) {
     Source a(bytes);
     EXPECT_THROW(a.get(v), Error);
   }
-  for (const auto& bytes : {source_of(huge, huge), source_of(std::uint64_t{1} << 32, std::uint64_t{1} << 32), source_of(huge, 0),
-                            source_of(0, huge), source_of(2, 2, 0, 0, 0)}) {
+  for (const auto& bytes : {source_of(huge, huge), source_of(std::uint64_t{1} << 32, std::uint64_t{1} << 32),
+                            source_of(huge, 0), source_of(0, huge), source_of(2, 2, 0, 0, 0)}) {
     Source a(bytes);
     EXPECT_THROW(a.get(m), Error);
   }

@@ -14,9 +14,7 @@ template <class F>
 std::string message(F&& f) {
   try {
     f();
-  } catch (const Error& e) {
-    return e.what();
-  }
+  } catch (const Error& e) { return e.what(); }
   return "";
 }
 
@@ -33,9 +31,10 @@ TEST(Check, NamesEveryViolationAtOnce) {
   check.not_negative("count", -1);
   check.finite("mean", std::numeric_limits<double>::infinity());
   check(false, "colour", "red", "green");
-  EXPECT_EQ(message([&] { check.done(); }),
-            "Config: size_m = -2 (expected finite and > 0); count = -1 (expected finite and >= 0); mean = inf (expected "
-            "finite); colour = red (expected green)");
+  EXPECT_EQ(
+      message([&] { check.done(); }),
+      "Config: size_m = -2 (expected finite and > 0); count = -1 (expected finite and >= 0); mean = inf (expected "
+      "finite); colour = red (expected green)");
 }
 
 TEST(Check, NothingWrongNothingThrown) {

@@ -64,7 +64,11 @@ TEST(Parallel, SumsToTheSameBitsWithAnyNumberOfThreads) {
 }
 
 TEST(Parallel, ExceptionsComeOut) {
-  EXPECT_THROW(parallel_for(100, [](std::size_t i) { if (i == 50) throw std::runtime_error("i"); }), std::runtime_error);
+  EXPECT_THROW(parallel_for(100,
+                            [](std::size_t i) {
+                              if (i == 50) throw std::runtime_error("i");
+                            }),
+               std::runtime_error);
 }
 
 }  // namespace

@@ -24,10 +24,12 @@ TEST(Camera, FromFovSeesTheAngle) {
 
 TEST(Camera, NamesEveryBadMember) {
   try {
-    Camera{.width = 0, .height = 1 << 20, .fx = -1, .fy = std::numeric_limits<double>::infinity(), .cx = 0, .cy = 0}.validate();
+    Camera{.width = 0, .height = 1 << 20, .fx = -1, .fy = std::numeric_limits<double>::infinity(), .cx = 0, .cy = 0}
+        .validate();
     FAIL();
   } catch (const Error& e) {
-    for (const char* name : {"width", "height", "fx", "fy"}) EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << name;
+    for (const char* name : {"width", "height", "fx", "fy"})
+      EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << name;
     EXPECT_EQ(std::string(e.what()).find("cx"), std::string::npos);
   }
   for (const double angle : {0.0, -1.0, std::numbers::pi, std::numeric_limits<double>::quiet_NaN()})

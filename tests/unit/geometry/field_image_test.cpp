@@ -23,7 +23,8 @@ TEST(NadirSensor, SeesASquareBelow) {
   const Box2 f = sensor.footprint(nadir(10, 5, 2.5));
   EXPECT_TRUE(f.min().isApprox(Eigen::Vector2d(7.5, 2.5), 1e-12));
   EXPECT_TRUE(f.max().isApprox(Eigen::Vector2d(12.5, 7.5), 1e-12));
-  EXPECT_NEAR((NadirSensor{.half_angle_rad = deg(30), .pixels = 20}.footprint(nadir(0, 0, 3)).sizes().x()), 2 * 3 / std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR((NadirSensor{.half_angle_rad = deg(30), .pixels = 20}.footprint(nadir(0, 0, 3)).sizes().x()),
+              2 * 3 / std::sqrt(3.0), 1e-12);
 }
 
 TEST(NadirSensor, IgnoresYaw) {

@@ -10,7 +10,10 @@ namespace vantage {
 namespace {
 
 MissionState state() {
-  MissionState s{.here = nadir(1, 2, 3), .rng = Rng(7), .visited = {nadir(0, 0, 1), look_at({1, 1, 1}, {0, 0, 0})}, .travelled_m = 12.5};
+  MissionState s{.here = nadir(1, 2, 3),
+                 .rng = Rng(7),
+                 .visited = {nadir(0, 0, 1), look_at({1, 1, 1}, {0, 0, 0})},
+                 .travelled_m = 12.5};
   s.rng();
   return s;
 }

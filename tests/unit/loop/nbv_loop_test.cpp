@@ -125,9 +125,10 @@ TEST(NbvLoop, TellsItsObserversWhatTheyAskFor) {
   int times = 0;
   auto loop = toy_loop();
   archetype::World world;
-  loop.run(world, View{}, Views(three).first(1), Measurements(2), ModelledClock{}, Rng{7}, Watching{&log}, Nothing{}, OnlyFinished{&times});
-  EXPECT_EQ(log, (std::vector<std::string>{"started 0", "measured 1 1 first", "completed 1 0.5", "measured 2 2 planned", "completed 2 1",
-                                           "finished 2 0"}));
+  loop.run(world, View{}, Views(three).first(1), Measurements(2), ModelledClock{}, Rng{7}, Watching{&log}, Nothing{},
+           OnlyFinished{&times});
+  EXPECT_EQ(log, (std::vector<std::string>{"started 0", "measured 1 1 first", "completed 1 0.5", "measured 2 2 planned",
+                                           "completed 2 1", "finished 2 0"}));
   EXPECT_EQ(times, 1);
 }
 
@@ -141,8 +142,8 @@ TEST(NbvLoop, AccountsForAllMissionTime) {
   std::vector<std::array<double, 4>> steps;
   auto loop = toy_loop();
   archetype::World world;
-  const MissionState s = loop.run(world, View{}, Views(three).first(2), Measurements(6), ModelledClock({.mapping_s = 0.25, .planning_s = 0.5}),
-                                  Rng{7}, Timing{&steps});
+  const MissionState s = loop.run(world, View{}, Views(three).first(2), Measurements(6),
+                                  ModelledClock({.mapping_s = 0.25, .planning_s = 0.5}), Rng{7}, Timing{&steps});
   ASSERT_EQ(steps.size(), 6u);
   double sum_s = 0, action_s = 0;
   for (std::size_t i = 0; i < 6; ++i) {
@@ -171,10 +172,13 @@ TEST(NbvLoop, EndsWithTheWorld) {
   StopReason reason{};
   auto loop = toy_loop();
   Ending world{4};
-  EXPECT_EQ(loop.run(world, View{}, three, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.size(), 4u);
+  EXPECT_EQ(loop.run(world, View{}, three, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.size(),
+            4u);
   EXPECT_EQ(reason, StopReason::world_ended);
   Ending empty{0};
-  EXPECT_TRUE(toy_loop().run(empty, View{}, three, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.empty());
+  EXPECT_TRUE(toy_loop()
+                  .run(empty, View{}, three, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason})
+                  .visited.empty());
   EXPECT_EQ(reason, StopReason::world_ended);
 }
 
@@ -182,7 +186,8 @@ TEST(NbvLoop, EndsWhenThereIsNothingToDo) {
   StopReason reason{};
   NbvLoop loop{archetype::Map{}, Uninformed{}, Pool{three}, archetype::Selector{}};
   archetype::World world;
-  EXPECT_EQ(loop.run(world, View{}, {}, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.size(), 3u);
+  EXPECT_EQ(loop.run(world, View{}, {}, Measurements(100), ModelledClock{}, Rng{7}, Reason{&reason}).visited.size(),
+            3u);
   EXPECT_EQ(reason, StopReason::nothing_to_do);
 }
 
@@ -232,7 +237,9 @@ TEST(NbvLoop, BelievesTheMeasurementAboutWhereItWas) {
 // Policies that break their promises are found out, and the map is as it was.
 struct NotANumber {
   template <Map M>
-  double operator()(const M&, const View& v) const { return v.position().x() > 0.25 ? std::nan("") : 1; }
+  double operator()(const M&, const View& v) const {
+    return v.position().x() > 0.25 ? std::nan("") : 1;
+  }
 };
 struct TooFar {
   template <Map M>
@@ -242,7 +249,9 @@ struct TooFar {
 };
 struct TooFewUtilities {
   template <Map M>
-  Candidates sample(const M&, const Situation&, const Score&, Rng&) const { return {.views = three, .utilities = {1, 2}}; }
+  Candidates sample(const M&, const Situation&, const Score&, Rng&) const {
+    return {.views = three, .utilities = {1, 2}};
+  }
 };
 template <class Loop>
 std::string complaint(Loop loop) {
@@ -257,9 +266,12 @@ std::string complaint(Loop loop) {
   return "";
 }
 TEST(NbvLoop, FindsOutBrokenPromises) {
-  EXPECT_NE(complaint(NbvLoop{ToyMap{}, NotANumber{}, Pool{three}, InOrder{}}).find("utility of candidate 1"), std::string::npos);
-  EXPECT_NE(complaint(NbvLoop{ToyMap{}, Uninformed{}, Pool{three}, TooFar{}}).find("the selector chose candidate 3"), std::string::npos);
-  EXPECT_NE(complaint(NbvLoop{ToyMap{}, Uninformed{}, TooFewUtilities{}, InOrder{}}).find("2 utilities"), std::string::npos);
+  EXPECT_NE(complaint(NbvLoop{ToyMap{}, NotANumber{}, Pool{three}, InOrder{}}).find("utility of candidate 1"),
+            std::string::npos);
+  EXPECT_NE(complaint(NbvLoop{ToyMap{}, Uninformed{}, Pool{three}, TooFar{}}).find("the selector chose candidate 3"),
+            std::string::npos);
+  EXPECT_NE(complaint(NbvLoop{ToyMap{}, Uninformed{}, TooFewUtilities{}, InOrder{}}).find("2 utilities"),
+            std::string::npos);
   archetype::World world;
   View bad;
   bad.T_W_C.linear() *= 3;
@@ -269,11 +281,15 @@ TEST(NbvLoop, FindsOutBrokenPromises) {
 /// Pays for its candidates itself: the utility must not be asked again.
 struct Paid {
   template <Map M>
-  Candidates sample(const M&, const Situation&, const Score&, Rng&) const { return {.views = three, .utilities = {1, 7, 3}}; }
+  Candidates sample(const M&, const Situation&, const Score&, Rng&) const {
+    return {.views = three, .utilities = {1, 7, 3}};
+  }
 };
 struct Forbidden {
   template <Map M>
-  double operator()(const M&, const View&) const { throw Error("Forbidden", "asked"); }
+  double operator()(const M&, const View&) const {
+    throw Error("Forbidden", "asked");
+  }
 };
 TEST(NbvLoop, PlansStepByStep) {
   NbvLoop loop{archetype::Map{}, Forbidden{}, Paid{}, archetype::Selector{}};
@@ -314,7 +330,8 @@ TEST(NbvLoop, TellsThePoliciesHowTheMissionStands) {
   std::vector<Situation> seen;
   NbvLoop loop{archetype::Map{}, Uninformed{}, Seeing{&seen}, archetype::Selector{}};
   archetype::World world;
-  loop.run(world, three[0], three, AnyOf{MissionTime(7), Measurements(6)}, ModelledClock({.mapping_s = 1, .planning_s = 1}), Rng{7});
+  loop.run(world, three[0], three, AnyOf{MissionTime(7), Measurements(6)},
+           ModelledClock({.mapping_s = 1, .planning_s = 1}), Rng{7});
   ASSERT_GE(seen.size(), 2u);
   EXPECT_EQ(seen[0].step, 3u);
   EXPECT_EQ(seen[0].elapsed_s, 3);

@@ -38,8 +38,10 @@ TEST(Hemisphere, IsUniformByArea) {
   std::vector<int> count(120);
   for (const View& v : views) {
     const Eigen::Vector3d d = (v.position() - centre) / 3;
-    const double height = (1 - d.z()) / (1 - std::cos(deg(60))), azimuth = std::atan2(d.y(), d.x()) / (2 * std::numbers::pi) + 0.5;
-    ++count[static_cast<std::size_t>(std::min(height, 0.999999) * 10) * 12 + static_cast<std::size_t>(std::min(azimuth, 0.999999) * 12)];
+    const double height = (1 - d.z()) / (1 - std::cos(deg(60))),
+                 azimuth = std::atan2(d.y(), d.x()) / (2 * std::numbers::pi) + 0.5;
+    ++count[static_cast<std::size_t>(std::min(height, 0.999999) * 10) * 12 +
+            static_cast<std::size_t>(std::min(azimuth, 0.999999) * 12)];
   }
   double chi_square = 0;
   const double expected = 50000.0 / 120;
@@ -58,7 +60,8 @@ TEST(Hemisphere, TurnsNoFartherThanAllowed) {
   double widest_rad = 0, lowest_m = 2;
   int left = 0;
   for (const View& v : views) {
-    widest_rad = std::max(widest_rad, std::acos(std::min(1.0, v.position().normalized().dot(here.position().normalized()))));
+    widest_rad =
+        std::max(widest_rad, std::acos(std::min(1.0, v.position().normalized().dot(here.position().normalized()))));
     lowest_m = std::min(lowest_m, v.position().z());
     left += v.position().y() > 0;
   }
@@ -90,7 +93,8 @@ TEST(Hemisphere, AnotherSeedOtherViews) {
   EXPECT_FALSE(same_place(sample(h, View{}, 1)[0], sample(h, View{}, 2)[0]));
   const auto scorer = [](Views, Views, std::span<double>) {};
   Rng rng(1);  // and again within one stream
-  const auto first = h.sample(archetype::Map{}, {}, Score(scorer), rng), second = h.sample(archetype::Map{}, {}, Score(scorer), rng);
+  const auto first = h.sample(archetype::Map{}, {}, Score(scorer), rng),
+             second = h.sample(archetype::Map{}, {}, Score(scorer), rng);
   EXPECT_FALSE(same_place(first.views[0], second.views[0]));
 }
 

@@ -74,7 +74,8 @@ TEST(Lattice, NamesEveryBadLayer) {
     FAIL();
   } catch (const Error& e) {
     const std::string text = e.what();
-    for (const char* name : {"layers[1].height_m", "layers[1].nx", "layers[1].ny", "layers[2].height_m", "layers[2].bounds"})
+    for (const char* name :
+         {"layers[1].height_m", "layers[1].nx", "layers[1].ny", "layers[2].height_m", "layers[2].bounds"})
       EXPECT_NE(text.find(name), std::string::npos) << name;
     EXPECT_EQ(text.find("layers[0]"), std::string::npos);
   }

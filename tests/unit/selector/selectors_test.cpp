@@ -44,7 +44,9 @@ struct Walled {
     return l;
   }
   template <Map M>
-  std::vector<View> path(const M&, const View& from, const View& goal) const { return {from, nadir(0, 0, 7), goal}; }
+  std::vector<View> path(const M&, const View& from, const View& goal) const {
+    return {from, nadir(0, 0, 7), goal};
+  }
 };
 
 TEST(ArgMax, TakesTheBestAndFliesStraight) {
@@ -65,7 +67,7 @@ TEST(InOrder, TakesTheFirst) {
 }
 
 TEST(PerFlightTime, DividesByTheFlight) {
-  EXPECT_EQ(select(PerFlightTime{}, along_x({10, 2, 4}, {10, 3, 5}))->index, 1u);          // 1, 1.5, 1.25
+  EXPECT_EQ(select(PerFlightTime{}, along_x({10, 2, 4}, {10, 3, 5}))->index, 1u);                  // 1, 1.5, 1.25
   EXPECT_EQ(select(PerFlightTime({.epsilon_s = 3}), along_x({10, 2, 4}, {10, 3, 5}))->index, 0u);  // .77, .6, .71
   const auto d = select(PerFlightTime({.speed_m_s = 4}), along_x({10, 2}, {10, 3}));
   EXPECT_EQ(d->travel_m, 2);
@@ -138,10 +140,14 @@ TEST(Router, ThatBreaksItsPromiseIsFound) {
     std::vector<double> lengths_m(const archetype::Map&, const View&, Views) const { return {1}; }
   };
   struct Negative : StraightLine {
-    std::vector<double> lengths_m(const archetype::Map&, const View&, Views goals) const { return std::vector<double>(goals.size(), -1); }
+    std::vector<double> lengths_m(const archetype::Map&, const View&, Views goals) const {
+      return std::vector<double>(goals.size(), -1);
+    }
   };
   struct Undefined : StraightLine {
-    std::vector<double> lengths_m(const archetype::Map&, const View&, Views goals) const { return std::vector<double>(goals.size(), std::nan("")); }
+    std::vector<double> lengths_m(const archetype::Map&, const View&, Views goals) const {
+      return std::vector<double>(goals.size(), std::nan(""));
+    }
   };
   EXPECT_THROW(select(MinusCost(Short{}), along_x({1, 2}, {1, 1})), Error);
   EXPECT_THROW(select(MinusCost(Negative{}), along_x({1, 2}, {1, 1})), Error);

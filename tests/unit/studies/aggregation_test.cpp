@@ -44,7 +44,8 @@ TEST(Statistics, AHistoryOnAGrid) {
   const std::vector<double> grid = time_grid(10, 2.5);
   EXPECT_EQ(grid, (std::vector<double>{0, 2.5, 5, 7.5, 10}));
   EXPECT_EQ(time_grid(300, 0.1).size(), 3001u);
-  EXPECT_EQ(held(std::vector{0.0, 2.5, 2.6, 9.0}, std::vector{1.0, 2.0, 3.0, 4.0}, grid), (std::vector<double>{1, 2, 3, 3, 4}));
+  EXPECT_EQ(held(std::vector{0.0, 2.5, 2.6, 9.0}, std::vector{1.0, 2.0, 3.0, 4.0}, grid),
+            (std::vector<double>{1, 2, 3, 3, 4}));
   const std::vector<double> late = held(std::vector{5.0}, std::vector{7.0}, grid);
   EXPECT_TRUE(std::isnan(late[0]) && std::isnan(late[1]));
   EXPECT_EQ(late[2], 7);
@@ -54,7 +55,8 @@ TEST(Statistics, AHistoryOnAGrid) {
 }
 
 TEST(Tables, Csv) {
-  const Json rows = {{{"name", "a, \"b\""}, {"value", 0.5}, {"none", nullptr}}, {{"name", "c"}, {"value", 3}, {"none", 1}}};
+  const Json rows = {{{"name", "a, \"b\""}, {"value", 0.5}, {"none", nullptr}},
+                     {{"name", "c"}, {"value", 3}, {"none", 1}}};
   EXPECT_EQ(csv(rows), "name,value,none\n\"a, \"\"b\"\"\",0.5,\nc,3,1\n");
   EXPECT_EQ(csv(Json::array()), "");
 }
@@ -111,7 +113,9 @@ TEST(FieldClaims, OnThePrintedTable) {
 
 TEST(FieldClaims, AFalseFigureIsNoticedAndAMissingOneLeavesItOpen) {
   const auto changed = [&](std::string_view method, std::string_view metric, double to) {
-    return test_claims([=](std::string_view m, std::string_view name) { return m == method && name == metric ? to : thesis(32)(m, name); });
+    return test_claims([=](std::string_view m, std::string_view name) {
+      return m == method && name == metric ? to : thesis(32)(m, name);
+    });
   };
   EXPECT_EQ(met(changed("ours", "mapping_ms", 500), "Ours has the fastest"), false);
   EXPECT_EQ(met(changed("ours", "mapping_ms", nan), "Ours has the fastest"), std::nullopt);
@@ -133,11 +137,16 @@ TEST(PlanningClaims, FieldByFieldAndOverTime) {
     throw std::logic_error("no such claim");
   };
   const auto with_ours = [](std::vector<double> ours) -> OverTime {
-    return [ours](std::string_view method, std::string_view) { return method == "ours" ? ours : std::vector<double>{0, 0, 3, 3, 3}; };
+    return [ours](std::string_view method, std::string_view) {
+      return method == "ours" ? ours : std::vector<double>{0, 0, 3, 3, 3};
+    };
   };
   EXPECT_EQ(verdict_of(with_ours({9, 9, 2, 2, 2}), "Ours is best consistently").met, true);
   EXPECT_EQ(verdict_of(with_ours({9, 9, 2, 4, 2}), "Ours is best consistently").met, false);
-  EXPECT_EQ(verdict_of([](std::string_view, std::string_view) { return std::vector<double>{}; }, "Ours is best consistently").met, std::nullopt);
+  EXPECT_EQ(
+      verdict_of([](std::string_view, std::string_view) { return std::vector<double>{}; }, "Ours is best consistently")
+          .met,
+      std::nullopt);
   const Claim planning = verdict_of(with_ours({}), "Ours spends less time planning");
   EXPECT_EQ(planning.met, true);
   EXPECT_EQ(planning.numbers, "Ours 3.00 - FR-GPF 5.00 = -2.00 ± 1.00");

@@ -28,9 +28,7 @@ std::vector<Unit> some_units(int n, int seed = 1) {
 std::string message(auto&& f) {
   try {
     f();
-  } catch (const vantage::Error& e) {
-    return e.what();
-  }
+  } catch (const vantage::Error& e) { return e.what(); }
   return "";
 }
 
@@ -53,16 +51,19 @@ TEST_F(UnitsTest, EachUnitRunsOnceAndItsResultIsKept) {
   EXPECT_EQ(store.run(units, {}, log_, work), 0u);
   EXPECT_EQ(Units(folder_).run(units, {}, log_, work), 0u);
   EXPECT_EQ(ran, (std::vector{0, 1, 2, 3, 4}));
+  EXPECT_GE(store.busiest(units), 0);
   for (int i = 0; i < 5; ++i) EXPECT_EQ((*store.result(units[static_cast<std::size_t>(i)]))["square"], i * i);
 }
 
 TEST_F(UnitsTest, GoesOnAfterAFailureWhereItStopped) {
   const Units store(folder_);
   const std::vector<Unit> units = some_units(4);
-  EXPECT_THROW(store.run(units, {}, log_, [](const Unit& u) {
-    if (u.parameters["index"] == 2) throw std::runtime_error("power cut");
-    return Json{{"value", 1}};
-  }), std::runtime_error);
+  EXPECT_THROW(store.run(units, {}, log_,
+                         [](const Unit& u) {
+                           if (u.parameters["index"] == 2) throw std::runtime_error("power cut");
+                           return Json{{"value", 1}};
+                         }),
+               std::runtime_error);
   EXPECT_TRUE(store.result(units[1]));
   EXPECT_FALSE(store.result(units[2]));
   std::vector<int> ran;
@@ -109,7 +110,9 @@ TEST_F(UnitsTest, ProcessesThatShareAFolderTakeTurns) {
 TEST_F(UnitsTest, ResultsOfOtherParametersAreRefused) {
   const Units store(folder_);
   store.run(some_units(1, 1), {}, log_, [](const Unit&) { return Json{{"value", 1}}; });
-  const std::string what = message([&] { store.run(some_units(1, 2), {}, log_, [](const Unit&) { return Json{{"value", 2}}; }); });
+  const std::string what = message([&] {
+    store.run(some_units(1, 2), {}, log_, [](const Unit&) { return Json{{"value", 2}}; });
+  });
   EXPECT_NE(what.find("unit_0.json"), what.npos) << what;
   EXPECT_NE(what.find("\"seed\":1"), what.npos) << what;
   EXPECT_NE(what.find("--out"), what.npos) << what;
@@ -119,7 +122,8 @@ TEST_F(UnitsTest, DamagedResultsAreRefused) {
   const Units store(folder_);
   for (const char* text : {"", "{\"parameters\": {\"index\"", "[]", "{\"parameters\": 1}"}) {
     std::ofstream(folder_ / "unit_0.json", std::ios::trunc) << text;
-    EXPECT_NE(message([&] { (void)store.result(some_units(1)[0]); }).find("no result of a unit"), std::string::npos) << text;
+    EXPECT_NE(message([&] { (void)store.result(some_units(1)[0]); }).find("no result of a unit"), std::string::npos)
+        << text;
   }
 }
 
@@ -131,7 +135,9 @@ TEST_F(UnitsTest, AHalfWrittenFileIsNoResult) {
 
 TEST_F(UnitsTest, NamesMustBeGoodAndDifferent) {
   const Units store(folder_);
-  const auto run = [&](const std::vector<Unit>& units) { return message([&] { store.run(units, {}, log_, [](const Unit&) { return Json{}; }); }); };
+  const auto run = [&](const std::vector<Unit>& units) {
+    return message([&] { store.run(units, {}, log_, [](const Unit&) { return Json{}; }); });
+  };
   EXPECT_NE(run({{"a", {}}, {"a", {}}}), "");
   EXPECT_NE(run({{"../a", {}}}), "");
   EXPECT_NE(run({{"", {}}}), "");
@@ -141,7 +147,8 @@ TEST_F(UnitsTest, NamesMustBeGoodAndDifferent) {
 TEST(Shard, Parses) {
   EXPECT_EQ(Shard::parse("1/1").count, 1u);
   EXPECT_EQ(Shard::parse("2/8").index, 1u);
-  for (const char* bad : {"", "1", "/", "0/2", "3/2", "1/0", "-1/2", "1/2/3", "1 /2", "a/b", "1/65537", "99999999999999999999/2"})
+  for (const char* bad :
+       {"", "1", "/", "0/2", "3/2", "1/0", "-1/2", "1/2/3", "1 /2", "a/b", "1/65537", "99999999999999999999/2"})
     EXPECT_THROW((void)Shard::parse(bad), vantage::Error) << bad;
 }
 
