@@ -298,7 +298,7 @@ TYPED_TEST_SUITE(RegionMapContract, RegionMaps);
 
 TYPED_TEST(RegionMapContract, RegionsHaveUnitNormals) {
   std::size_t found = 0;
-  for (const std::size_t n : {0, 1})
+  for (const std::size_t n : {std::size_t{0}, std::size_t{1}})
     for (const Region& r : after<TypeParam>(n).regions(frontier{})) {
       EXPECT_TRUE(r.centre.allFinite());
       EXPECT_NEAR(r.normal.norm(), 1, 1e-9);
