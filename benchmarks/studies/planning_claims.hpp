@@ -38,8 +38,12 @@ inline std::vector<Claim> test_planning_claims(const PerField& figure, const Ove
         break;
       }
       const Summary d = difference(a, b);
-      if (std::isnan(d.mean)) c.met = std::nullopt;  // nothing to compare, such as no low view at all
-      if (c.met) c.met = *c.met && sign * d.mean > 0;
+      if (std::isnan(d.mean)) {  // such as no low view at all
+        c.met = std::nullopt;
+        c.numbers = "nothing to compare";
+        break;
+      }
+      c.met = *c.met && sign * d.mean > 0;
       c.numbers += std::string(c.numbers.empty() ? "" : "; ") + std::string(method_info(method).label) + " " +
                    decimals(Summary::of(a).mean, digits) + " - " + std::string(method_info(other).label) + " " +
                    decimals(Summary::of(b).mean, digits) + " = " + with_deviation(d.mean, d.standard_error(), digits);
