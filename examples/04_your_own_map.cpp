@@ -19,9 +19,9 @@ class Averages {
   void integrate(const FieldImage& z, Rng&) {
     if (!z.footprint.min().allFinite() || !z.footprint.max().allFinite() || z.values.isInf().any())
       throw Error("Averages", "an infinite image", "finite numbers");  // before anything changes
-    const Eigen::Array2d pixel_m = z.footprint.sizes().array() / Eigen::Array2d(z.values.cols(), z.values.rows());
-    for (Eigen::Index row = 0; row < z.values.rows(); ++row)
-      for (Eigen::Index column = 0; column < z.values.cols(); ++column) {
+    const Eigen::Array2d pixel_m = z.footprint.sizes().array() / Eigen::Array2d(double(z.values.cols()), double(z.values.rows()));
+    for (int row = 0; row < z.values.rows(); ++row)
+      for (int column = 0; column < z.values.cols(); ++column) {
         const Eigen::Array2d centre(column + 0.5, row + 0.5);
         const int i = square(z.footprint.min().array() + pixel_m * centre);
         if (i < 0 || std::isnan(z.values(row, column))) continue;

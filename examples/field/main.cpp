@@ -17,6 +17,7 @@
 #include <vantage/maps/field/methods.hpp>
 #include <vantage/mission/checkpoint.hpp>
 #include <vantage/mission/command_line.hpp>
+#include <vantage/eval/field_metrics.hpp>
 #include <vantage/mission/progress.hpp>
 #include <vantage/mission/recorder.hpp>
 #include <vantage/sampler/lattice.hpp>
@@ -116,13 +117,13 @@ class Mission {
       const double rmse = input_.held_out.empty() ? m.rmse : rmse_at(map, input_.held_out);
       return std::vector<Metric>{{"rmse", rmse}, {"rmse_hotspots", m.rmse_hotspots}, {"iou", m.iou}, {"cells", static_cast<double>(m.cells)}};
     });
-    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = 1}, recorder);
+    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = o_.checkpoint_s}, recorder);
     Progress progress(recorder.record(), std::cerr, {.budget_s = o_.budget_s, .budget_steps = o_.measurements, .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
 
     if (o_.resume && checkpoint.load(loop, world, clock, state))
       std::cerr << "resumed after step " << state.visited.size() << '\n';
     loop.resume(world, state, {}, stop(), clock, recorder, progress, checkpoint);
-    write_results(o_, input_, loop.map, interest, recorder.record());
+    write_results(o_, input_, Snapshot(loop.map, truth), interest.threshold, recorder.record());
     std::cout << (o_.out / "report.html").string() << '\n';
   }
 

@@ -48,6 +48,7 @@ struct Options : MissionOptions {
   int pixels = 20;
   double half_angle_deg = 45;
   double side_m = 20;                          ///< of the flight area, the longer one
+  double checkpoint_s = 1;                     ///< real time between two checkpoints
 
   Options() {
     out = "out/field";
@@ -61,7 +62,7 @@ inline void add_options(CLI::App& app, Options& o) {
   add_mission_options(app, o, methods());
   app.add_option("--field", o.file, "Field to measure: x, y and values, one sample a line, on a grid or scattered")->type_name("FILE.csv");
   app.add_option("--column", o.column, "Which column holds the values (default: the last)")->type_name("NAME");
-  app.add_option("--random", o.random, "A Gaussian random field instead of a file")->type_name("SEED");
+  app.add_option("--random", o.random, "A Gaussian random field instead of a file")->check(vantage::detail::whole_number())->type_name("SEED");
   app.add_option("--resolution", o.resolution, "Finest cells along a side, a power of two (default 32)")
       ->check(CLI::IsMember(std::vector<int>{4, 8, 16, 32, 64, 128, 256, 512, 1024}))->type_name("N");
   app.add_option("--threshold", o.threshold, "What is above matters, in the field's unit (default: 70 % of its range)")->type_name("VALUE");
@@ -75,6 +76,7 @@ inline void add_options(CLI::App& app, Options& o) {
   app.add_option("--noise", o.alpha, "Sensor noise per metre of height, for a field scaled to [0, 1] (default: the preset's)")->check(CLI::PositiveNumber)->type_name("ALPHA");
   app.add_option("--pixels", o.pixels, "Pixels along a side of the sensor's image")->check(CLI::Range(1, 4096))->capture_default_str()->type_name("N");
   app.add_option("--half-angle", o.half_angle_deg, "Half of the sensor's field of view")->check(CLI::Range(1.0, 80.0))->capture_default_str()->type_name("DEGREES");
+  app.add_option("--checkpoint", o.checkpoint_s, "Real time between two checkpoints; 0: after every measurement")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("SECONDS");
 }
 
 /// Throws Error for options that contradict each other.
@@ -83,6 +85,9 @@ inline void validate(const Options& o) {
   if (o.column && o.file.empty()) throw Error("--column", "given without --field", "a file that has the column");
   if (o.threshold && !std::isfinite(*o.threshold)) throw Error("--threshold", concat(*o.threshold), "a finite number");
   if (!std::isfinite(o.side_m) || o.side_m > 1e6) throw Error("--side", concat(o.side_m, " m"), "at most 1e6 m");
+  if (o.alpha && !std::isfinite(*o.alpha)) throw Error("--noise", concat(*o.alpha), "a finite number");
+  if (!std::isfinite(o.half_angle_deg)) throw Error("--half-angle", concat(o.half_angle_deg), "1 to 80 degrees");
+  if (!std::isfinite(o.checkpoint_s)) throw Error("--checkpoint", concat(o.checkpoint_s, " s"), "a finite number");
 }
 
 }  // namespace field

@@ -3,12 +3,13 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vantage/concepts/map.hpp>
-#include <vantage/eval/field_metrics.hpp>
 #include <vantage/io/npy.hpp>
 #include <vantage/maps/field/decompress.hpp>
 #include <vantage/mission/canvas.hpp>
@@ -27,6 +28,36 @@ template <class Kernel, class Belief, class Resolution, class Sensor>
 inline constexpr bool decompressible<IntegralGp<Kernel, CellAverage, Belief, Resolution, Sensor>> =
     requires(const Belief b, const NdTree& tree) { b.covariance_matrix(tree); } || requires(const Belief b, std::size_t i) { b.covariance(i, i); };
 
+/// A map as numbers, whatever its type: its cells, and rasters at the truth's resolution (rows along +y).
+struct Snapshot {
+  std::vector<Box2> cell;
+  std::vector<double> mean, deviation;
+  Image<double> mean_raster, deviation_raster;
+  Image<double> decompressed = {};  ///< empty: the map cannot say, or has so many cells that it would take long
+
+  template <FieldMap M>
+  Snapshot(const M& map, const ScalarField& truth) : mean_raster(truth.rows(), truth.columns()), deviation_raster(mean_raster) {
+    for (std::size_t i = 0; i < map.size(); ++i) {
+      cell.push_back(map.cell(i));
+      mean.push_back(map.mean(i));
+      deviation.push_back(std::sqrt(std::max(0.0, map.variance(i))));
+    }
+    for (Eigen::Index row = 0; row < truth.rows(); ++row)
+      for (Eigen::Index column = 0; column < truth.columns(); ++column) {
+        const std::size_t i = map.cell_at(truth.centre(row, column));
+        mean_raster(row, column) = mean[i];
+        deviation_raster(row, column) = deviation[i];
+      }
+    if constexpr (decompressible<M>)
+      if (map.size() <= 2048) {  // its cost grows with the cube of the cells
+        const Eigen::Vector2d side = 100 * truth.area().sizes() / truth.area().sizes().maxCoeff();
+        const int columns = std::max(1, static_cast<int>(std::lround(side.x()))), rows = std::max(1, static_cast<int>(std::lround(side.y())));
+        const Decompressed fine = decompress(map, grid_boxes(truth.area(), columns, rows));
+        decompressed = Eigen::Map<const Image<double>>(fine.mean.data(), rows, columns);
+      }
+  }
+};
+
 /// A picture and how to read it.
 struct Drawing {
   std::string file, title, caption;
@@ -35,121 +66,94 @@ struct Drawing {
 };
 
 /// Draws truth, map, uncertainty and error, all in the same place and at the same size.
-template <FieldMap M, class Interest>
 class Artist {
  public:
-  Artist(const M& map, const Input& input, const Interest& interest, const std::vector<View>& path)
-      : map_(map), input_(input), interest_(interest), path_(path) {}
+  Artist(const Snapshot& map, const ScalarField& truth, double threshold, const std::vector<View>& path)
+      : map_(map), truth_(truth), threshold_(threshold), path_(path) {}
 
   [[nodiscard]] std::vector<Drawing> all() const {
-    const std::string& unit = truth().quantity().unit;
-    const double low = truth().minimum(), high = std::max(truth().maximum(), low + 1e-12);
+    const std::string& unit = truth_.quantity().unit;
+    const double low = truth_.minimum(), high = std::max(truth_.maximum(), low + 1e-12);
     const ColourScale values{colours_of(viridis), low, high, unit};
-    const auto deviation = [&](std::size_t i) { return std::sqrt(std::max(0.0, map_.variance(i))); };
-    const auto error_at = [&](const Eigen::Vector2d& p) { return map_.mean(map_.cell_at(p)) - truth().at(p); };
-
     std::vector<Drawing> d;
-    d.push_back({"truth.png", "The field", "The truth, which the UAV does not know. Lines bound what lies above the threshold, in all pictures.",
-                 draw(viridis, low, high, [&](const Eigen::Vector2d& p) { return truth().at(p); }), values});
+    d.push_back({"truth.png", "The field", "The truth, which the UAV does not know. In all pictures, lines bound what truly lies above the threshold.",
+                 draw(viridis, low, high, truth_.values()), values});
     d.push_back({"map.png", "The map", "Mean of each cell, and the cells' borders: large where little matters.",
-                 draw(viridis, low, high, of_cell([&](std::size_t i) { return map_.mean(i); }), Overlay::cells), values});
-    if constexpr (decompressible<M>)
-      if (map_.size() <= 2048)  // its cost grows with the cube of the cells
-        d.push_back({"decompressed.png", "Decompressed", "What the map says at a higher resolution, through the correlation of its cells.", draw_decompressed(low, high), values});
-    d.push_back({"path.png", "The flight", "Views over the field: a dot is a measurement, the large dot the start.",
-                 draw(viridis, low, high, [&](const Eigen::Vector2d& p) { return truth().at(p); }, Overlay::path), values});
-    const double unsure = quantile(raster(deviation), 0.98), wrong = quantile((raster([&](std::size_t i) { return map_.mean(i); }) - truth().values()).abs(), 0.98);
-    d.push_back({"uncertainty.png", "Uncertainty", "Standard deviation that the map states; the brightest colour is for the highest 2 % too.",
-                 draw(plum, 0, unsure, of_cell(deviation)), {colours_of(plum), 0, unsure, unit}});
-    d.push_back({"error.png", "Error", "Map minus truth: red is too high, blue too low; the extreme colours are for the largest 2 % too.",
-                 draw(blue_white_red, -wrong, wrong, error_at), {colours_of(blue_white_red), -wrong, wrong, unit}});
+                 draw(viridis, low, high, map_.mean_raster, Overlay::cells), values});
+    if (map_.decompressed.size() != 0)
+      d.push_back({"decompressed.png", "Decompressed", "What the map says at a higher resolution, by the correlation of its cells.",
+                   draw(viridis, low, high, map_.decompressed), values});
+    d.push_back({"path.png", "The flight", "A dot is a measurement, the large dot the start.", draw(viridis, low, high, truth_.values(), Overlay::path), values});
+    const Image<double> error = map_.mean_raster - truth_.values();
+    const double unsure = quantile(map_.deviation_raster, 0.98), wrong = quantile(error.abs(), 0.98);
+    d.push_back({"uncertainty.png", "Uncertainty", "Standard deviation that the map states. The end of the scale stands for the highest 2 %, too.",
+                 draw(plum, 0, unsure, map_.deviation_raster), {colours_of(plum), 0, unsure, unit}});
+    d.push_back({"error.png", "Error", "Map minus truth: red is too high, blue too low. The ends of the scale stand for the largest 2 %, too.",
+                 draw(blue_white_red, -wrong, wrong, error), {colours_of(blue_white_red), -wrong, wrong, unit}});
     return d;
   }
 
-  /// value(cell) at every pixel of the truth.
-  template <class F>
-  [[nodiscard]] Image<double> raster(F&& value) const {
-    Image<double> image(truth().rows(), truth().columns());
-    for (Eigen::Index row = 0; row < image.rows(); ++row)
-      for (Eigen::Index column = 0; column < image.cols(); ++column) image(row, column) = value(map_.cell_at(truth().centre(row, column)));
-    return image;
-  }
-
  private:
-  [[nodiscard]] const ScalarField& truth() const { return input_.truth; }
-  template <class F>
-  auto of_cell(F value) const {
-    return [this, value](const Eigen::Vector2d& p) { return std::isnan(truth().at(p)) ? truth().at(p) : value(map_.cell_at(p)); };
-  }
   enum class Overlay { none, cells, path };
-  template <class F>
-  [[nodiscard]] Picture draw(Palette palette, double low, double high, F&& value, Overlay overlay = Overlay::none) const {
-    Canvas canvas(truth().area(), 800);
-    canvas.fill([&](const Eigen::Vector2d& p) { return palette((value(p) - low) / (high - low)); });
+
+  /// The pixel of a raster over the whole area that holds p.
+  [[nodiscard]] double at(const Image<double>& raster, const Eigen::Vector2d& p) const {
+    const Eigen::Vector2d t = (p - truth_.area().min()).cwiseQuotient(truth_.area().sizes());
+    return raster(std::min(static_cast<Eigen::Index>(t.y() * static_cast<double>(raster.rows())), raster.rows() - 1),
+                  std::min(static_cast<Eigen::Index>(t.x() * static_cast<double>(raster.cols())), raster.cols() - 1));
+  }
+  [[nodiscard]] Picture draw(Palette palette, double low, double high, const Image<double>& raster, Overlay overlay = Overlay::none) const {
+    Canvas canvas(truth_.area(), 800);
+    canvas.fill([&](const Eigen::Vector2d& p) {
+      return palette(std::isnan(truth_.at(p)) ? truth_.at(p) : (at(raster, p) - low) / (high - low));
+    });
     if (overlay == Overlay::cells)
-      for (std::size_t i = 0; i < map_.size(); ++i)
-        if (canvas.px_per_m() * map_.cell(i).sizes().minCoeff() >= 6) canvas.rectangle(map_.cell(i), 0.7, {255, 255, 255}, 0.22);
-    canvas.outline([&](const Eigen::Vector2d& p) { return interest_.hot(truth().at(p)); }, {20, 20, 20}, 0.85);
+      for (const Box2& cell : map_.cell)
+        if (canvas.px_per_m() * cell.sizes().minCoeff() >= 6) canvas.rectangle(cell, 0.7, {255, 255, 255}, 0.22);
+    canvas.outline([&](const Eigen::Vector2d& p) { return truth_.at(p) > threshold_; }, {20, 20, 20}, 0.85);
     if (overlay == Overlay::path) draw_path(canvas);
     return canvas.picture();
   }
-  [[nodiscard]] Picture draw_decompressed(double low, double high) const
-    requires decompressible<M>
-  {
-    const Eigen::Vector2d side = truth().area().sizes();
-    const int columns = std::max(1, static_cast<int>(std::lround(100 * side.x() / side.maxCoeff())));
-    const int rows = std::max(1, static_cast<int>(std::lround(100 * side.y() / side.maxCoeff())));
-    const std::vector<Box2> boxes = grid_boxes(truth().area(), columns, rows);
-    const Decompressed fine = decompress(map_, boxes);
-    return draw(viridis, low, high, [&](const Eigen::Vector2d& p) {
-      const Eigen::Vector2d t = (p - truth().area().min()).cwiseQuotient(side);
-      const int column = std::min(static_cast<int>(t.x() * columns), columns - 1), row = std::min(static_cast<int>(t.y() * rows), rows - 1);
-      return std::isnan(truth().at(p)) ? truth().at(p) : fine.mean[row * columns + column];
-    });
+  void draw_path(Canvas& canvas) const {
+    const auto spot = [&](std::size_t k) -> Eigen::Vector2d { return path_[k].position().head<2>(); };
+    for (std::size_t k = 1; k < path_.size(); ++k) canvas.line(spot(k - 1), spot(k), 4.5, {20, 20, 20}, 0.45);
+    for (std::size_t k = 1; k < path_.size(); ++k) canvas.line(spot(k - 1), spot(k), 2.2, {255, 255, 255});
+    for (std::size_t k = 1; k < path_.size(); ++k) {
+      canvas.dot(spot(k), 4.6, {255, 255, 255});
+      canvas.dot(spot(k), 3.0, {190, 30, 45});
+    }
+    if (path_.empty()) return;
+    canvas.dot(spot(0), 9, {255, 255, 255});
+    canvas.dot(spot(0), 6, {20, 20, 20});
   }
-  /// Of what is not masked; never 0.
+  /// Of what is not masked; never 0, so that a scale has an extent.
   [[nodiscard]] double quantile(const Image<double>& image, double share) const {
     std::vector<double> v;
     for (Eigen::Index k = 0; k < image.size(); ++k)  // both are row-major
-      if (!std::isnan(truth().values().data()[k])) v.push_back(image.data()[k]);
-    const auto at = v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-    std::nth_element(v.begin(), at, v.end());
-    return *at > 0 ? *at : 1.0;
-  }
-  void draw_path(Canvas& canvas) const {
-    const auto at = [&](std::size_t k) -> Eigen::Vector2d { return path_[k].position().head<2>(); };
-    for (std::size_t k = 1; k < path_.size(); ++k) canvas.line(at(k - 1), at(k), 4.5, {20, 20, 20}, 0.45);
-    for (std::size_t k = 1; k < path_.size(); ++k) canvas.line(at(k - 1), at(k), 2.2, {255, 255, 255});
-    for (std::size_t k = 1; k < path_.size(); ++k) {
-      canvas.dot(at(k), 4.6, {255, 255, 255});
-      canvas.dot(at(k), 3.0, {190, 30, 45});
-    }
-    if (!path_.empty()) {
-      canvas.dot(at(0), 9, {255, 255, 255});
-      canvas.dot(at(0), 6, {20, 20, 20});
-    }
+      if (!std::isnan(truth_.values().data()[k])) v.push_back(image.data()[k]);
+    const auto place = v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+    std::nth_element(v.begin(), place, v.end());
+    return *place > 0 ? *place : 1.0;
   }
 
-  const M& map_;
-  const Input& input_;
-  const Interest& interest_;
+  const Snapshot& map_;
+  const ScalarField& truth_;
+  double threshold_;
   const std::vector<View>& path_;
 };
 
-/// The map for other programs: one line a cell, and rasters for numpy (rows along +y).
-template <FieldMap M, class Interest>
-void write_map(const std::filesystem::path& out, const M& map, const Artist<M, Interest>& artist) {
+/// The map for other programs: one line a cell, and rasters for numpy.
+inline void write_map(const std::filesystem::path& out, const Snapshot& map) {
   std::string csv = "x_min_m,y_min_m,x_max_m,y_max_m,mean,deviation\n";
   char line[256];
-  for (std::size_t i = 0; i < map.size(); ++i) {
-    const Box2 b = map.cell(i);
-    std::snprintf(line, sizeof line, "%.10g,%.10g,%.10g,%.10g,%.17g,%.17g\n", b.min().x(), b.min().y(), b.max().x(), b.max().y(), map.mean(i),
-                  std::sqrt(std::max(0.0, map.variance(i))));
+  for (std::size_t i = 0; i < map.cell.size(); ++i) {
+    const Box2& b = map.cell[i];
+    std::snprintf(line, sizeof line, "%.10g,%.10g,%.10g,%.10g,%.17g,%.17g\n", b.min().x(), b.min().y(), b.max().x(), b.max().y(), map.mean[i], map.deviation[i]);
     csv += line;
   }
   write_file(out / "cells.csv", csv);
-  write_npy(out / "mean.npy", artist.raster([&](std::size_t i) { return map.mean(i); }));
-  write_npy(out / "deviation.npy", artist.raster([&](std::size_t i) { return std::sqrt(std::max(0.0, map.variance(i))); }));
+  write_npy(out / "mean.npy", map.mean_raster);
+  write_npy(out / "deviation.npy", map.deviation_raster);
 }
 
 /// "volcano elevation" from volcano_elevation.
@@ -157,36 +161,38 @@ inline std::string words(std::string name) {
   std::replace(name.begin(), name.end(), '_', ' ');
   return name;
 }
+inline double tenths(double x) { return std::round(10 * x) / 10; }
 
 inline std::vector<KeyFigure> key_figures(const MissionRecord& record, const Input& input) {
   const StepRecord& last = record.steps.back();
   const std::string& unit = input.truth.quantity().unit;
-  const auto share = [&](const char* metric) { return short_number(std::round(1000 * last.metric(metric) / input.truth.range()) / 10) + " % of the range"; };
-  const double iou = last.metric("iou");
+  const auto share = [&](const char* metric) {
+    const double x = last.metric(metric);
+    return std::isnan(x) ? "there are none" : short_number(tenths(100 * x / input.truth.range())) + " % of the range";
+  };
   return {{"RMSE", short_number(last.metric("rmse")), unit, share("rmse")},
-          {"RMSE, hotspots", short_number(last.metric("rmse_hotspots")), unit, share("rmse_hotspots")},
-          {"IoU of hotspots", short_number(std::round(1000 * iou) / 10), "%", "hot in map and truth / in either"},
+          {"RMSE in hotspots", short_number(last.metric("rmse_hotspots")), unit, share("rmse_hotspots")},
+          {"IoU of hotspots", short_number(tenths(100 * last.metric("iou"))), "%", "in map and truth / in either"},
           {"Cells", short_number(last.metric("cells")), "", "from " + short_number(record.steps.front().metric("cells"))},
-          {"Measurements", short_number(static_cast<double>(last.index)), "", short_number(std::round(10 * last.travelled_m) / 10) + " m flown"},
-          {"Mission time", short_number(std::round(10 * last.elapsed_s) / 10), "s", "planning, mapping and flight"}};
+          {"Measurements", short_number(static_cast<double>(last.index)), "", short_number(tenths(last.travelled_m)) + " m flown"},
+          {"Mission time", short_number(tenths(last.elapsed_s)), "s", "planning, mapping, flight"}};
 }
 
 /// Writes pictures, map and page into o.out.
-template <FieldMap M, class Interest>
-void write_results(const Options& o, const Input& input, const M& map, const Interest& interest, const MissionRecord& record) {
+inline void write_results(const Options& o, const Input& input, const Snapshot& map, double threshold, const MissionRecord& record) {
+  write_map(o.out, map);
+  const ScalarField& truth = input.truth;
+  const Quantity& q = truth.quantity();
+  Report report{.title = "Field mission: " + words(input.name)};
+  report.lead = concat("A UAV maps ", words(q.name), " (", short_number(truth.minimum()), " to ", short_number(truth.maximum()), q.unit.empty() ? "" : " ", q.unit,
+                       ") over ", short_number(tenths(truth.area().sizes().x())), " m x ", short_number(tenths(truth.area().sizes().y())),
+                       " m; what lies above ", short_number(threshold), q.unit.empty() ? "" : " ", q.unit, " matters. Method ", o.method, ", at most ",
+                       o.cells_a_side(), " x ", o.cells_a_side(), " cells. ", input.note);
+  report.figures = key_figures(record, input);
+
   std::vector<View> path;
   for (const StepRecord& r : record.steps) path.push_back(r.view);
-  const Artist<M, Interest> artist(map, input, interest, path);
-  write_map(o.out, map, artist);
-
-  const Quantity& q = input.truth.quantity();
-  const auto value = [&](double v) { return short_number(v) + (q.unit.empty() ? "" : " " + q.unit); };
-  Report report{.title = "Field mission: " + words(input.name)};
-  report.lead = concat("A UAV maps ", words(q.name), " (", short_number(input.truth.minimum()), " to ", value(input.truth.maximum()), ") over ",
-                       short_number(input.truth.area().sizes().x()), " m x ", short_number(input.truth.area().sizes().y()),
-                       " m; what lies above ", value(interest.threshold), " matters. Method ", o.method, ", up to ", o.cells_a_side(), " x ", o.cells_a_side(), " cells. ", input.note);
-  report.figures = key_figures(record, input);
-  for (Drawing& d : artist.all()) {
+  for (Drawing& d : Artist(map, truth, threshold, path).all()) {
     std::vector<std::byte> png = encode_png(d.picture);
     write_file(o.out / d.file, png);
     report.pictures.push_back({d.title, d.caption, std::move(png), d.scale});
@@ -195,11 +201,12 @@ void write_results(const Options& o, const Input& input, const M& map, const Int
   report.plots.push_back(metric_plot(record, "Intersection over union of hotspots", "", {"iou"}));
   report.plots.back().y_least_top = 1;
   report.plots.push_back(metric_plot(record, "Cells of the map", "", {"cells"}));
-  Plot& height = report.plots.emplace_back(Plot{.title = "Flight height", .x_label = "mission time [s]", .y_label = "m", .curves = {{.name = "height", .x = {}, .y = {}}}});
+  Curve height{.name = "height", .x = {}, .y = {}};
   for (const StepRecord& r : record.steps) {
-    height.curves[0].x.push_back(r.elapsed_s);
-    height.curves[0].y.push_back(r.view.position().z());
+    height.x.push_back(r.elapsed_s);
+    height.y.push_back(r.view.position().z());
   }
+  report.plots.push_back({.title = "Flight height", .x_label = "mission time [s]", .y_label = "m", .curves = {height}});
   for (const std::string& word : o.command) report.command += (report.command.empty() ? "" : " ") + word;
   write_file(o.out / "report.html", report_html(report, record));
 }

@@ -16,10 +16,10 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/field_image.hpp>
 #include <vantage/loop/carry.hpp>
-#include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/field/latent.hpp>
 #include <vantage/maps/field/matern.hpp>
+#include <vantage/maps/field/methods.hpp>
 
 #include "lists.hpp"
 
@@ -35,17 +35,14 @@ inline constexpr bool offers<M, test::Saving> = Persistent<M>;
 
 namespace vantage::test {
 
-using OursMap = IntegralGp<>;
-using FixedPointMap = IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed<>>;
-using IndependentMap = IntegralGp<SquaredExponential, CellAverage, Diagonal, Fixed<>>;
-using IndependentMergingMap = IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>;
 using CarryMap = Carry<archetype::FullMap, archetype::Persistent<>>;
+using OursMap = Ours<>;
+using LatentMap = Ours<preset::thesis, Latent<>>;
+using MaternMap = IntegralGp<Matern32>;
 
-using LatentMap = IntegralGp<SquaredExponential, CellAverage, Latent<>, Merging<>>;
-using MaternMap = IntegralGp<Matern32, CellAverage, Full<>, Merging<>>;
-
-using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap,
-                  OursMap, FixedPointMap, IndependentMap, IndependentMergingMap, LatentMap, MaternMap>;
+using Maps =
+    List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
+         Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
 /// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
 /// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether
@@ -131,7 +128,7 @@ struct FieldFixture {
 template <SeparableKernel Kernel, class Cells, class Belief, class Resolution, class Sensor>
 struct MapFixture<IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>> : FieldFixture {
   using M = IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>;
-  static M make(int depth = 4) { return M(typename M::Config{.tree = {.depth = depth}}); }
+  static M make(int depth = 4) { return M(typename M::Config{.tree = {.depth = depth}, .prior_mean = 0.75}); }
   static M large() { return make(5); }
 };
 

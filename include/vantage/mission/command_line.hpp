@@ -89,6 +89,13 @@ struct ListMethods : CLI::CallForVersion {
   }
 };
 
+/// Digits only: CLI11 reads "-1" as a huge unsigned number.
+inline CLI::Validator whole_number() {
+  return CLI::Validator([](std::string& text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == text.npos ? std::string() : "'" + text + "' is no whole number";
+  }, "");
+}
+
 inline std::string one_line(std::string text) {
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
@@ -101,16 +108,14 @@ inline std::string one_line(std::string text) {
 /// Adds the shared options to `app`. `options` and what it holds must outlive the parsing.
 inline void add_mission_options(CLI::App& app, MissionOptions& options, const std::vector<MethodName>& methods) {
   std::vector<std::string> names;
+  names.reserve(methods.size());
   for (const MethodName& m : methods) names.push_back(m.name);
   const CLI::Validator positive([](std::string& text) {
     char* end = nullptr;
     const double x = std::strtod(text.c_str(), &end);
     return end != text.c_str() && *end == '\0' && std::isfinite(x) && x > 0 ? std::string() : "'" + text + "' is no finite number above 0";
   }, "> 0");
-  // CLI11 reads "-1" as a huge unsigned number.
-  const CLI::Validator whole([](std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == text.npos ? std::string() : "'" + text + "' is no whole number";
-  }, "");
+  const CLI::Validator whole = detail::whole_number();
 
   app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
   app.add_option("--out", options.out, "Folder of the results")->capture_default_str()->type_name("DIR");

@@ -323,12 +323,22 @@ TYPED_TEST(IntegralGpOf, RefusesBadImagesUnchanged) {
 
 TYPED_TEST(IntegralGpOf, SkipsPixelsWithoutAValue) {
   auto map = make<TypeParam>(4);
+  const std::size_t size = map.size();
+  const auto prior = make<TypeParam>(4);
   Rng rng(4), unused;
-  const auto before = bytes(map);
   FieldImage z = image(lawnmower(5), rng);
   z.values.setConstant(std::numeric_limits<double>::quiet_NaN());
   map.integrate(z, unused);
-  EXPECT_EQ(bytes(map), before);
+  ASSERT_EQ(map.size(), size);
+  for (std::size_t i = 0; i < size; ++i) {
+    ASSERT_EQ(map.mean(i), prior.mean(i));
+    ASSERT_EQ(map.variance(i), prior.variance(i));
+  }
+  const std::vector<View> there = {lawnmower(5)};
+  std::vector<double> reduction(1, -1);
+  map.forecast({}, there, reduction);
+  EXPECT_EQ(reduction[0], 0) << "nothing is expected where no value was";
+  const auto before = bytes(map);
   z = image(lawnmower(5), rng);
   z.values.leftCols(10).setConstant(std::numeric_limits<double>::quiet_NaN());
   map.integrate(z, unused);

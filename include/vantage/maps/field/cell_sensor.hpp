@@ -19,6 +19,7 @@ namespace vantage {
 struct CellMeasurements {
   std::vector<std::size_t> cells;
   Eigen::VectorXd value, noise_variance;
+  std::vector<std::size_t> blank = {};  ///< other cells, seen without any value: masked, on land, outside of the field
 };
 
 /// <thesis>: sigma_a^2 = alpha h.
@@ -92,7 +93,7 @@ struct CellSensor {
   }
 
   /// The cells that an image measures. Pixels without a value (NaN) do not count; a cell none of whose pixels has one
-  /// is left out. Throws Error on an image that is empty or infinite, or whose footprint is empty or not finite.
+  /// is blank. Throws Error on an image that is empty or infinite, or whose footprint is empty or not finite.
   [[nodiscard]] CellMeasurements measure(const NdTree& tree, const FieldImage& image) const {
     constexpr std::string_view where = "CellSensor::measure";
     const Box2& f = image.footprint;
@@ -122,7 +123,10 @@ struct CellSensor {
             sum += v(r, c);
             ++seen;
           }
-      if (seen == 0) continue;
+      if (seen == 0) {
+        m.blank.push_back(all.cells[k]);
+        continue;
+      }
       m.cells.push_back(all.cells[k]);
       value.push_back(sum / static_cast<double>(seen));
       noise.push_back(all.noise_variance[static_cast<Eigen::Index>(k)]);

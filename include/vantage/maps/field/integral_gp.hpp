@@ -62,12 +62,14 @@ class IntegralGp {
   /// covariance is not positive definite to working precision.
   void integrate(const FieldImage& image, Rng&) { fuse(config_.sensor.measure(tree_, image)); }
 
-  /// The same for measurements of cells made elsewhere. No cells: nothing changes.
+  /// The same for measurements of cells made elsewhere. Blank cells are remembered: the forecast expects nothing of
+  /// them until a value is seen there.
   void fuse(const CellMeasurements& z) {
     check(z);
-    if (z.cells.empty()) return;
-    belief_.fuse(tree_, z);
+    if (!z.cells.empty()) belief_.fuse(tree_, z);
     for (const std::size_t i : z.cells) tree_.mark_measured(i);
+    for (const std::size_t i : z.blank) tree_.mark_blank(i);
+    if (z.cells.empty()) return;
     Merge merge;
     if (config_.resolution.plan(tree_, belief_, merge)) {
       belief_.merge(tree_, merge);
@@ -99,7 +101,7 @@ class IntegralGp {
   /// look down. Candidates run concurrently.
   void forecast(Views given, Views views, std::span<double> reduction) const {
     std::vector<std::uint8_t> target(size());
-    for (std::size_t i = 0; i < size(); ++i) target[i] = interest().target(mean(i), variance(i));
+    for (std::size_t i = 0; i < size(); ++i) target[i] = !tree_[i].blank && interest().target(mean(i), variance(i));
     typename Belief::Forecaster forecaster(belief_, tree_, target);
     for (const View& v : given) forecaster.given(covered(v));
     forecaster.prepare();
@@ -177,9 +179,20 @@ class IntegralGp {
             concat("cell ", z.cells[k], " measured as ", z.value[i], " with noise variance ", z.noise_variance[i]),
             "a finite value and a variance > 0");
     }
+    for (const std::size_t i : z.blank)
+      if (i >= size()) throw Error("IntegralGp::fuse", concat("blank cell ", i), concat("below ", size()));
   }
   [[nodiscard]] CellMeasurements covered(const View& v) const {
-    return config_.sensor.covered(tree_, config_.sensor.camera.footprint(v), v.position().z());
+    CellMeasurements z = config_.sensor.covered(tree_, config_.sensor.camera.footprint(v), v.position().z());
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < z.cells.size(); ++k) {
+      if (tree_[z.cells[k]].blank) continue;
+      z.noise_variance[static_cast<Eigen::Index>(kept)] = z.noise_variance[static_cast<Eigen::Index>(k)];
+      z.cells[kept++] = z.cells[k];
+    }
+    z.cells.resize(kept);
+    z.noise_variance.conservativeResize(static_cast<Eigen::Index>(kept));
+    return z;
   }
   // What the saved numbers depend on.
   [[nodiscard]] std::string signature() const {

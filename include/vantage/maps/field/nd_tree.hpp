@@ -42,6 +42,7 @@ class NdTree {
   struct Leaf {
     std::int32_t level = 0, ix = 0, iy = 0;  ///< column and row among the cells of its level
     bool measured = false;
+    bool blank = false;  ///< last seen without any value
   };
 
   /// All leaves at the full depth. Throws Error on a bad config.
@@ -84,13 +85,17 @@ class NdTree {
     const double n = side(leaves_[i].level);
     return 1 / (n * n);
   }
-  /// Share of the area in leaves that were measured.
+  /// Share of the area in leaves that were seen, with a value or without.
   [[nodiscard]] double coverage() const {
     double sum = 0;
-    for (std::size_t i = 0; i < size(); ++i) sum += leaves_[i].measured ? share(i) : 0;
+    for (std::size_t i = 0; i < size(); ++i) sum += leaves_[i].measured || leaves_[i].blank ? share(i) : 0;
     return sum;
   }
-  void mark_measured(std::size_t i) { leaves_[i].measured = true; }
+  void mark_measured(std::size_t i) {
+    leaves_[i].measured = true;
+    leaves_[i].blank = false;
+  }
+  void mark_blank(std::size_t i) { leaves_[i].blank = true; }
 
   /// The leaf that holds a point [m]. O(1). Throws Error outside the area.
   [[nodiscard]] std::size_t leaf_at(const Eigen::Vector2d& p) const {
@@ -133,7 +138,10 @@ class NdTree {
       if (a.level == deeper) up(a);
       if (b.level == deeper) up(b);
     }
-    for (std::size_t i = g.first; i < g.last; ++i) a.measured = a.measured && leaves_[i].measured;
+    for (std::size_t i = g.first; i < g.last; ++i) {
+      a.measured = a.measured && leaves_[i].measured;
+      a.blank = a.blank && leaves_[i].blank;
+    }
     return a;
   }
   /// Replaces each group of leaves by the cell that they make up.
@@ -156,6 +164,7 @@ class NdTree {
       sink.put(c.ix);
       sink.put(c.iy);
       sink.put(c.measured);
+      sink.put(c.blank);
     }
   }
   /// For a tree of the same config. Throws Error unless the leaves tile the area in depth-first order.
@@ -171,6 +180,7 @@ class NdTree {
       source.get(c.ix);
       source.get(c.iy);
       c.measured = source.get<std::uint8_t>() != 0;
+      c.blank = source.get<std::uint8_t>() != 0;
       if (c.level < 0 || c.level > config_.depth || c.ix < 0 || c.iy < 0 || c.ix >= side(c.level) ||
           c.iy >= side(c.level) || first_cell(c) != next)
         throw Error(source.where(), concat("leaf ", i, " is out of place"), "leaves that tile the area in order");
