@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include <vantage/eval/field_metrics.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/loop/stop_rules.hpp>
