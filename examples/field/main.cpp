@@ -18,6 +18,7 @@
 #include <vantage/maps/field/methods.hpp>
 #include <vantage/mission/checkpoint.hpp>
 #include <vantage/mission/command_line.hpp>
+#include <vantage/eval/field_metrics.hpp>
 #include <vantage/mission/progress.hpp>
 #include <vantage/mission/recorder.hpp>
 #include <vantage/sampler/lattice.hpp>

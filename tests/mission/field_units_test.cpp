@@ -25,7 +25,7 @@ struct Method {
   using Map = MapT;
 };
 using Methods = testing::Types<Method<preset::thesis, Ours<preset::thesis>>, Method<preset::reference, Ours<preset::reference>>,
-                               Method<preset::thesis, Ours<preset::thesis, Latent>>, Method<preset::thesis, FrIdp<preset::thesis>>,
+                               Method<preset::thesis, Ours<preset::thesis, Latent<>>>, Method<preset::thesis, FrIdp<preset::thesis>>,
                                Method<preset::reference, ArIdp<preset::reference>>, Method<preset::thesis, ArGprIk<preset::thesis>>>;
 TYPED_TEST_SUITE(FieldUnits, Methods);
 

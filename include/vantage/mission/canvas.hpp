@@ -69,7 +69,7 @@ class Canvas {
     stroke(centre_px, centre_px, radius_px, colour, opacity, [&](const Eigen::Vector2d& p) { return (p - centre_px).norm() - radius_px; });
   }
   void rectangle(const Box2& box_m, double width_px, Rgb colour, double opacity = 1) {
-    const Eigen::Vector2d a = box_m.min(), b(box_m.max().x(), box_m.min().y()), c = box_m.max(), d(box_m.min().x(), box_m.max().y());
+    const Eigen::Vector2d &a = box_m.min(), &c = box_m.max(), b(c.x(), a.y()), d(a.x(), c.y());
     line(a, b, width_px, colour, opacity);
     line(b, c, width_px, colour, opacity);
     line(c, d, width_px, colour, opacity);

@@ -108,6 +108,7 @@ inline std::string one_line(std::string text) {
 /// Adds the shared options to `app`. `options` and what it holds must outlive the parsing.
 inline void add_mission_options(CLI::App& app, MissionOptions& options, const std::vector<MethodName>& methods) {
   std::vector<std::string> names;
+  names.reserve(methods.size());
   for (const MethodName& m : methods) names.push_back(m.name);
   const CLI::Validator positive([](std::string& text) {
     char* end = nullptr;

@@ -324,15 +324,15 @@ TYPED_TEST(IntegralGpOf, RefusesBadImagesUnchanged) {
 TYPED_TEST(IntegralGpOf, SkipsPixelsWithoutAValue) {
   auto map = make<TypeParam>(4);
   const std::size_t size = map.size();
-  const double mean = map.mean(0), variance = map.variance(0);
+  const auto prior = make<TypeParam>(4);
   Rng rng(4), unused;
   FieldImage z = image(lawnmower(5), rng);
   z.values.setConstant(std::numeric_limits<double>::quiet_NaN());
   map.integrate(z, unused);
   ASSERT_EQ(map.size(), size);
   for (std::size_t i = 0; i < size; ++i) {
-    ASSERT_EQ(map.mean(i), mean);
-    ASSERT_EQ(map.variance(i), variance);
+    ASSERT_EQ(map.mean(i), prior.mean(i));
+    ASSERT_EQ(map.variance(i), prior.variance(i));
   }
   const std::vector<View> there = {lawnmower(5)};
   std::vector<double> reduction(1, -1);
