@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <vantage/core/error.hpp>
+#include <vantage/maps/field/presets.hpp>
 #include <vantage/mission/command_line.hpp>
 
 namespace field {
@@ -52,6 +54,7 @@ struct Options : MissionOptions {
 
   Options() {
     out = "out/field";
+    preset = std::is_same_v<DefaultFieldPreset, vantage::preset::thesis> ? PresetKind::thesis : PresetKind::reference;
     budget_s = 300;
   }
   [[nodiscard]] int cells_a_side() const { return resolution.value_or(protocol == Protocol::lawnmower81 ? 64 : 32); }
