@@ -48,11 +48,12 @@ function(vantage_programs_from prefix pattern) # libraries...
   set(targets "")
   foreach(source IN LISTS sources)
     cmake_path(GET source STEM name)
-    if(name STREQUAL "main") # NAME/main.cpp
+    if(name STREQUAL "main") # NAME/main.cpp, and what stands beside it
       cmake_path(GET source PARENT_PATH folder)
       cmake_path(GET folder FILENAME name)
+      file(GLOB source CONFIGURE_DEPENDS "${folder}/*.cpp")
     endif()
-    add_executable(${prefix}_${name} "${source}")
+    add_executable(${prefix}_${name} ${source})
     set_target_properties(${prefix}_${name} PROPERTIES OUTPUT_NAME ${name})
     target_link_libraries(${prefix}_${name} PRIVATE vantage_programs ${ARGN})
     list(APPEND targets ${prefix}_${name})

@@ -2,167 +2,25 @@
 // SPDX-License-Identifier: MIT
 
 // A UAV plans where to measure a field, so that what lies above a threshold is known well, soon (chapter 3 of the
-// thesis). Every method is one choice of policies; they differ where their lines differ.
-#include <unistd.h>
-
+// thesis). What a mission is made of, and in which lines the methods differ: mission.hpp.
 #include <iostream>
-#include <limits>
-#include <utility>
-#include <vector>
-
-#include <vantage/loop/clocks.hpp>
-#include <vantage/loop/nbv_loop.hpp>
-#include <vantage/loop/stop_rules.hpp>
-#include <vantage/maps/field/latent.hpp>
-#include <vantage/maps/field/methods.hpp>
-#include <vantage/mission/checkpoint.hpp>
-#include <vantage/mission/command_line.hpp>
-#include <vantage/eval/field_metrics.hpp>
-#include <vantage/mission/progress.hpp>
-#include <vantage/mission/recorder.hpp>
-#include <vantage/sampler/lattice.hpp>
-#include <vantage/sampler/lawnmower.hpp>
-#include <vantage/selector/arg_max.hpp>
-#include <vantage/selector/in_order.hpp>
-#include <vantage/selector/per_flight_time.hpp>
-#include <vantage/sim/field_world.hpp>
-#include <vantage/utility/uninformed.hpp>
-#include <vantage/utility/variance_reduction.hpp>
 
 #include "input.hpp"
+#include "mission.hpp"
 #include "options.hpp"
-#include "results.hpp"
-#include "units.hpp"
 
-namespace field {
+namespace {
 
-template <class Preset>
-using WorldNoise = std::conditional_t<std::is_same_v<typename FieldPreset<Preset>::HeightNoise, VarianceGrowsWithHeight>, VarianceByHeight, DeviationByHeight>;
-
-/// One mission with one preset, whatever the method.
-template <class Preset>
-class Mission {
- public:
-  Mission(const Options& options, const Input& input) : o_(options), input_(input) {}
-
-  void run() const {
-    const std::string& m = o_.method;
-    if (m == "ours") measure<Ours<Preset>>();
-    else if (m == "latent") measure<Ours<Preset, Latent<>>>();
-    else if (m == "fr_gpf") measure<FrGpf<Preset>>();
-    else if (m == "fr_idp") measure<FrIdp<Preset>>();
-    else if (m == "ar_idp") measure<ArIdp<Preset>>();
-    else if (m == "ar_gpr_ik") follow_lawnmower(map<ArGprIk<Preset>>(FieldTask::mapping));
-    else if (m == "ar_bcm") follow_lawnmower(map<ArBcm<Preset>>(FieldTask::mapping));
-    else if (m == "lawnmower") follow_lawnmower(map<Ours<Preset>>(FieldTask::mapping));
-    else fly(NbvLoop{map<Ours<Preset>>(FieldTask::planning), Uninformed{}, Lattice{lattice()}, ArgMax{}});
-  }
-
- private:
-  template <class MapT>
-  void measure() const {
-    if (o_.protocol != Protocol::plan) return follow_lawnmower(map<MapT>(FieldTask::mapping));
-    fly(NbvLoop{map<MapT>(FieldTask::planning), VarianceReduction{}, Lattice{lattice()}, PerFlightTime{}});
-  }
-  template <class MapT>
-  void follow_lawnmower(MapT map) const {
-    const bool dense = o_.protocol == Protocol::lawnmower81;
-    const double height_m = (dense ? 0.1 : 0.125) * o_.side_m / std::tan(deg(o_.half_angle_deg));  // 9 or 4 views along the side
-    fly(NbvLoop{std::move(map), Uninformed{},
-                Lawnmower{{.area = input_.truth.area(), .height_m = height_m, .half_angle_rad = deg(o_.half_angle_deg), .overlap = dense ? 0.5 : 0.0}}, InOrder{}});
-  }
-
-  template <class MapT>
-  [[nodiscard]] MapT map(FieldTask task) const {
-    typename MapT::Config c = configured<MapT, Preset>(task);
-    c.tree = {.area = input_.truth.area(), .branching = 2, .depth = o_.depth()};
-    c.sensor.camera = {.half_angle_rad = deg(o_.half_angle_deg), .pixels = o_.pixels};
-    if (o_.alpha) c.sensor.alpha = *o_.alpha;
-    return MapT(in_unit_of(input_.truth, c, o_.threshold));
-  }
-
-  /// The two layers of section 3.2.3, at a tenth and a quarter of the side: 2 m and 5 m over 20 m.
-  [[nodiscard]] Lattice::Config lattice() const {
-    const auto layer = [&](double height_m, int nx, int ny) {
-      Layer l = Layer::inside(input_.truth.area(), height_m, nx, ny, deg(o_.half_angle_deg));
-      for (int axis = 0; axis < 2; ++axis)  // a field narrower than a footprint is flown over along its middle
-        if (l.bounds.min()[axis] >= l.bounds.max()[axis]) {
-          l.bounds.min()[axis] = l.bounds.max()[axis] = input_.truth.area().center()[axis];
-          (axis == 0 ? l.nx : l.ny) = 1;
-        }
-      return l;
-    };
-    const Lattice::Config c = std::is_same_v<Preset, preset::thesis> ? Lattice::thesis() : Lattice::reference();
-    std::vector<Layer> layers;
-    for (const Layer& l : c.layers) layers.push_back(layer(l.height_m * o_.side_m / 20, l.nx, l.ny));
-    return {.layers = layers};
-  }
-
-  [[nodiscard]] AnyOf<MissionTime, Measurements, Travel> stop() const {
-    const auto finite = [](double x) { return std::min(x, std::numeric_limits<double>::max()); };
-    return AnyOf{MissionTime{finite(o_.budget_s)}, Measurements{o_.measurements}, Travel{finite(o_.travel_m)}};
-  }
-
-  template <class Loop>
-  void fly(Loop loop) const {
-    MissionClock clock(o_.clock);
-    const ScalarField& truth = input_.truth;
-    const auto interest = loop.map.interest();
-    FieldWorld world(truth, WorldNoise<Preset>{.alpha = o_.alpha.value_or(FieldPreset<Preset>{}.alpha)}, Rng(o_.seed).fork(1),
-                     {.sensor = {.half_angle_rad = deg(o_.half_angle_deg), .pixels = o_.pixels}});
-    MissionState state{.here = nadir(truth.area().min().x(), truth.area().min().y(), 0), .rng = Rng(o_.seed)};
-
-    Recorder recorder(RecorderConfig{.file = o_.out / "mission.json", .config = config(interest.threshold), .seed = o_.seed}, [&](const auto& map) {
-      const FieldMetrics m = field_metrics(map, truth, interest);
-      const double rmse = input_.held_out.empty() ? m.rmse : rmse_at(map, input_.held_out);
-      return std::vector<Metric>{{"rmse", rmse}, {"rmse_hotspots", m.rmse_hotspots}, {"iou", m.iou}, {"cells", static_cast<double>(m.cells)}};
-    });
-    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = o_.checkpoint_s}, recorder);
-    Progress progress(recorder.record(), std::cerr, {.budget_s = o_.budget_s, .budget_steps = o_.measurements, .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
-
-    if (o_.resume && checkpoint.load(loop, world, clock, state))
-      std::cerr << "resumed after step " << state.visited.size() << '\n';
-    loop.resume(world, state, {}, stop(), clock, recorder, progress, checkpoint);
-    write_results(o_, input_, Snapshot(loop.map, truth), interest.threshold, recorder.record());
-    std::cout << (o_.out / "report.html").string() << '\n';
-  }
-
-  /// All that determines the mission, besides the seed.
-  [[nodiscard]] nlohmann::ordered_json config(double threshold) const {
-    const ScalarField& truth = input_.truth;
-    const auto budget = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(); };
-    nlohmann::ordered_json c = {{"mission", "field"}, {"field", input_.name}, {"quantity", truth.quantity().name}, {"unit", truth.quantity().unit}};
-    c["range"] = {truth.minimum(), truth.maximum()};
-    c["area_m"] = {truth.area().sizes().x(), truth.area().sizes().y()};
-    c["method"] = o_.method;
-    c["protocol"] = field::name_of(o_.protocol);
-    c["preset"] = vantage::name_of(o_.preset);
-    c["clock"] = vantage::name_of(o_.clock);
-    c["resolution"] = o_.cells_a_side();
-    c["threshold"] = threshold;
-    c["noise_alpha"] = o_.alpha.value_or(FieldPreset<Preset>{}.alpha);
-    c["sensor_pixels"] = o_.pixels;
-    c["sensor_half_angle_deg"] = o_.half_angle_deg;
-    c["budget_s"] = budget(o_.budget_s);
-    c["budget_travel_m"] = budget(o_.travel_m);
-    if (o_.measurements != std::numeric_limits<std::uint64_t>::max()) c["budget_measurements"] = o_.measurements;
-    return c;
-  }
-
-  const Options& o_;
-  const Input& input_;
-};
-
-void run(const Options& o) {
-  validate(o);
-  make_folder(o.out);
-  const Input input = load(o);
-  std::cerr << words(input.name) << ". " << input.note << '\n';
-  if (o.preset == PresetKind::thesis) Mission<preset::thesis>(o, input).run();
-  else Mission<preset::reference>(o, input).run();
+void run(const field::Options& o) {
+  field::validate(o);
+  vantage::make_folder(o.out);
+  const field::Input input = field::load(o);
+  std::cerr << field::words(input.name) << ". " << input.note << '\n';
+  if (o.preset == vantage::PresetKind::thesis) field::Mission<vantage::preset::thesis>(o, input).run();
+  else field::Mission<vantage::preset::reference>(o, input).run();
 }
 
-}  // namespace field
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app("A UAV plans where to measure a field, and maps it.", "field");
@@ -170,6 +28,6 @@ int main(int argc, char** argv) {
   options.command.assign(argv, argv + argc);
   field::add_options(app, options);
   return vantage::run_program(app, argc, argv, std::cout, std::cerr, [&] {
-    vantage::with_threads(options.threads, [&] { field::run(options); });
+    vantage::with_threads(options.threads, [&] { run(options); });
   });
 }

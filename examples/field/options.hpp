@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include <vantage/core/error.hpp>
+#include <vantage/maps/field/presets.hpp>
 #include <vantage/mission/command_line.hpp>
 
 namespace field {
@@ -52,6 +54,7 @@ struct Options : MissionOptions {
 
   Options() {
     out = "out/field";
+    preset = std::is_same_v<DefaultFieldPreset, vantage::preset::thesis> ? PresetKind::thesis : PresetKind::reference;
     budget_s = 300;
   }
   [[nodiscard]] int cells_a_side() const { return resolution.value_or(protocol == Protocol::lawnmower81 ? 64 : 32); }
@@ -67,7 +70,7 @@ inline void add_options(CLI::App& app, Options& o) {
       ->check(CLI::IsMember(std::vector<int>{4, 8, 16, 32, 64, 128, 256, 512, 1024}))->type_name("N");
   app.add_option("--threshold", o.threshold, "What is above matters, in the field's unit (default: 70 % of its range)")->type_name("VALUE");
   app.add_option("--protocol", o.protocol,
-                 "plan: views are planned. lawnmower16: 16 views side by side (Table 3.1). lawnmower81: 81 views, 50 % overlap, 64 x 64 cells (Fig. 3.5)")
+                 "plan: views are planned. lawnmower16: 4 x 4 views side by side (Table 3.1). lawnmower81: 9 x 9 views that overlap by half, 64 x 64 cells (Fig. 3.5)")
       ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Protocol>>{{"plan", Protocol::plan},
                                                                                         {"lawnmower16", Protocol::lawnmower16},
                                                                                         {"lawnmower81", Protocol::lawnmower81}}).description(""))
