@@ -7,7 +7,8 @@ jobs=${VANTAGE_JOBS:-$(nproc)}
 script=$(cd "$(dirname "$0")" && pwd)/${0##*/}
 script=${script#"$root"/}
 
-packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libpng-dev libqhull-dev nlohmann-json3-dev libcli11-dev
+packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libembree-dev libqhull-dev libnanoflann-dev
+          libpng-dev libstb-dev libtinyobjloader-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
           libgtest-dev libbenchmark-dev libopenblas-dev"
 
 # Ends the script with one clear line.

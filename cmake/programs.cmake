@@ -5,7 +5,7 @@
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release)
 endif()
-foreach(component IO SIM MISSION)
+foreach(component IO SIM EVAL MISSION)
   if(NOT VANTAGE_WITH_${component})
     message(FATAL_ERROR "Tests, benchmarks and examples need VANTAGE_WITH_${component}=ON")
   endif()
@@ -28,7 +28,7 @@ endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 add_library(vantage_strict INTERFACE)
-target_link_libraries(vantage_strict INTERFACE vantage::vantage vantage::io vantage::sim vantage::mission)
+target_link_libraries(vantage_strict INTERFACE vantage::vantage vantage::io vantage::sim vantage::eval vantage::mission)
 target_compile_options(vantage_strict INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>) # g++ 12 finds some in its own AVX-512 header
 target_compile_definitions(vantage_strict INTERFACE

@@ -27,12 +27,21 @@ target_compile_options(vantage_native INTERFACE -march=native -O3)
 if(VANTAGE_WITH_IO)
   find_package(PNG REQUIRED)
   find_package(nlohmann_json 3.10 REQUIRED)
-  vantage_target(vantage_io vantage PNG::PNG nlohmann_json::nlohmann_json)
+  find_package(tinyobjloader REQUIRED)
+  find_package(TinyGLTF REQUIRED)
+  find_path(VANTAGE_STB stb/stb_image.h REQUIRED) # header-only, and no package of CMake's
+  vantage_target(vantage_io vantage PNG::PNG nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader TinyGLTF::TinyGLTF)
 endif()
 
 if(VANTAGE_WITH_SIM)
   find_package(Qhull CONFIG REQUIRED)
-  vantage_target(vantage_sim vantage Qhull::qhull_r)
+  find_package(embree 3.12 REQUIRED)
+  vantage_target(vantage_sim vantage Qhull::qhull_r embree)
+endif()
+
+if(VANTAGE_WITH_EVAL)
+  find_package(nanoflann 1.4 REQUIRED)
+  vantage_target(vantage_eval vantage nanoflann::nanoflann)
 endif()
 
 if(VANTAGE_WITH_MISSION)

@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include <vantage/geometry/colour_image.hpp>
 #include <vantage/geometry/image.hpp>
 
 namespace vantage {
@@ -10,9 +11,7 @@ namespace vantage {
 /// What a map can draw. Channels are types, so that one march or one raster pass computes just those that were asked
 /// for.
 namespace channel {
-struct Colour {
-  Image<float> r, g, b;
-};  ///< [0, 1]
+struct Colour : ColourImage {};  ///< [0, 1]
 struct Depth {
   Image<float> depth;
 };  ///< camera z [m], NaN where nothing is hit

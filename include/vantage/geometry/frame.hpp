@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <string_view>
+
+#include <vantage/core/error.hpp>
+#include <vantage/geometry/camera.hpp>
+#include <vantage/geometry/colour_image.hpp>
+#include <vantage/geometry/image.hpp>
+#include <vantage/geometry/view.hpp>
+
+namespace vantage {
+
+/// One measurement of a camera: what all 3-D maps learn from. Each image is of the camera's size, or empty where the
+/// sensor lacks that channel.
+struct Frame {
+  Camera camera;
+  View view;                    ///< from where it was taken
+  ColourImage colour;           ///< [0, 1]
+  Image<float> depth;           ///< camera z [m], > 0; NaN = no value (out of range, invalid)
+  Image<std::uint16_t> labels;  ///< class of what is seen; 0 = unknown
+
+  /// Throws Error if camera or pose are bad, an image is of another size, a colour is not in [0, 1], or a depth is
+  /// neither > 0 and finite nor NaN. O(pixels).
+  void validate(std::string_view where) const;
+};
+
+inline void Frame::validate(std::string_view where) const {
+  camera.validate();
+  check_view(view, where);
+  const auto sized = [&](const auto& image, std::string_view name) {
+    if (image.size() != 0 && (image.rows() != camera.height || image.cols() != camera.width))
+      throw Error(where, concat(name, " of ", image.cols(), " x ", image.rows(), " px"),
+                  concat("the camera's ", camera.width, " x ", camera.height, ", or none"));
+  };
+  sized(colour.r, "red");
+  sized(colour.g, "green");
+  sized(colour.b, "blue");
+  sized(depth, "depth");
+  sized(labels, "labels");
+  if (colour.r.size() != colour.g.size() || colour.r.size() != colour.b.size())
+    throw Error(where, "a colour plane is missing", "all of red, green and blue, or none");
+  const auto refuse = [&](std::string_view what, float value, Eigen::Index k, std::string_view expected) {
+    throw Error(where, concat(what, " ", value, " at row ", k / camera.width, ", column ", k % camera.width), expected);
+  };
+  for (const Image<float>* plane : {&colour.r, &colour.g, &colour.b})
+    for (Eigen::Index k = 0; k < plane->size(); ++k)
+      if (!(plane->data()[k] >= 0 && plane->data()[k] <= 1)) refuse("colour", plane->data()[k], k, "in [0, 1]");
+  for (Eigen::Index k = 0; k < depth.size(); ++k)
+    if (const float d = depth.data()[k]; !std::isnan(d) && !(d > 0 && std::isfinite(d)))
+      refuse("depth", d, k, "finite and > 0 m, or NaN = no value");
+}
+
+}  // namespace vantage
