@@ -19,9 +19,13 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/camera.hpp>
+#include <vantage/geometry/colour_image.hpp>
 #include <vantage/geometry/field_image.hpp>
+#include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/image.hpp>
 #include <vantage/geometry/scalar_field.hpp>
+#include <vantage/geometry/scene.hpp>
+#include <vantage/geometry/triangle_mesh.hpp>
 #include <vantage/geometry/view.hpp>
 #include <vantage/loop/carry.hpp>
 #include <vantage/loop/clocks.hpp>

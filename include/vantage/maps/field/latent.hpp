@@ -154,6 +154,20 @@ class Latent {
     basis_.row(tree[j], b);
     return a.dot(product(covariance_, b).col(0));
   }
+  /// Posterior covariance of all leaves. n r (n + r) flops for n leaves.
+  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
+    const auto n = static_cast<Index>(tree.size());
+    dense::Matrix<T> phi(basis_.rank, n);
+    for (Index i = 0; i < n; ++i) basis_.row(tree[static_cast<std::size_t>(i)], phi.col(i));
+    dense::Matrix<T> p = dense::Matrix<T>::Zero(n, n);
+    dense::for_tiles(
+        n,
+        [&](Index begin, Index count) {
+          dense::add_tn<T>(p.middleCols(begin, count), phi, product(covariance_, phi.middleCols(begin, count)), 1);
+        },
+        64);
+    return p;
+  }
   [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
                                                      std::span<const double>) const {
     std::vector<double> out(parents.size());
