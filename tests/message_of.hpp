@@ -19,8 +19,8 @@ std::string message_of(F&& f) {
 }  // namespace vantage::test
 
 /// That f() throws an Error whose text holds `part`.
-#define EXPECT_REFUSED(f, part)                                                                \
-  do {                                                                                         \
-    const std::string said = vantage::test::message_of([&]() -> decltype(auto) { return f; }); \
-    EXPECT_NE(said.find(part), std::string::npos) << #f << " said: '" << said << "'";          \
+#define EXPECT_REFUSED(f, part)                                                                     \
+  do {                                                                                              \
+    const std::string complaint = vantage::test::message_of([&]() -> decltype(auto) { return f; }); \
+    EXPECT_NE(complaint.find(part), std::string::npos) << #f << " said: '" << complaint << "'";     \
   } while (false)

@@ -3,6 +3,12 @@
 #pragma once
 
 // The core target in one include: the loop, its policies and its maps. Never what needs Embree, FCL or a file format.
+#include <vantage/concepts/channels.hpp>
+#include <vantage/concepts/explain.hpp>
+#include <vantage/concepts/map.hpp>
+#include <vantage/concepts/policy.hpp>
+#include <vantage/concepts/preset.hpp>
+#include <vantage/concepts/world.hpp>
 #include <vantage/core/assert.hpp>
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/dense.hpp>
@@ -13,16 +19,19 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/camera.hpp>
+#include <vantage/geometry/colour_image.hpp>
 #include <vantage/geometry/field_image.hpp>
+#include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/image.hpp>
 #include <vantage/geometry/scalar_field.hpp>
+#include <vantage/geometry/scene.hpp>
+#include <vantage/geometry/triangle_mesh.hpp>
 #include <vantage/geometry/view.hpp>
-#include <vantage/concepts/channels.hpp>
-#include <vantage/concepts/explain.hpp>
-#include <vantage/concepts/map.hpp>
-#include <vantage/concepts/policy.hpp>
-#include <vantage/concepts/preset.hpp>
-#include <vantage/concepts/world.hpp>
+#include <vantage/loop/carry.hpp>
+#include <vantage/loop/clocks.hpp>
+#include <vantage/loop/mission_state.hpp>
+#include <vantage/loop/nbv_loop.hpp>
+#include <vantage/loop/stop_rules.hpp>
 #include <vantage/maps/field/accumulated.hpp>
 #include <vantage/maps/field/batch.hpp>
 #include <vantage/maps/field/cell_sensor.hpp>
@@ -46,10 +55,6 @@
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
 #include <vantage/planning/straight_line.hpp>
-#include <vantage/utility/mean_uncertainty.hpp>
-#include <vantage/utility/uninformed.hpp>
-#include <vantage/utility/variance_reduction.hpp>
-#include <vantage/utility/view_distance.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
 #include <vantage/sampler/lawnmower.hpp>
@@ -63,9 +68,8 @@
 #include <vantage/selector/per_flight_time.hpp>
 #include <vantage/selector/route.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
-#include <vantage/loop/carry.hpp>
-#include <vantage/loop/clocks.hpp>
-#include <vantage/loop/mission_state.hpp>
-#include <vantage/loop/nbv_loop.hpp>
-#include <vantage/loop/stop_rules.hpp>
+#include <vantage/utility/mean_uncertainty.hpp>
+#include <vantage/utility/uninformed.hpp>
+#include <vantage/utility/variance_reduction.hpp>
+#include <vantage/utility/view_distance.hpp>
 #include <vantage/version.hpp>

@@ -123,7 +123,8 @@ class CsvParser {
     });
     std::unordered_set<std::string_view> seen;
     for (const std::string& name : table_.names_)
-      if (!seen.insert(name).second) refuse(concat("two columns are named '", printable(name, 40), "'"), "distinct names");
+      if (!seen.insert(name).second)
+        refuse(concat("two columns are named '", printable(name, 40), "'"), "distinct names");
     if (table_.columns() == 1 && line_.find_first_of(";\t") != line_.npos)
       refuse("no comma in the line of names", "comma-separated columns");
     table_.columns_.resize(table_.columns());

@@ -85,7 +85,8 @@ inline PictureHeader check_png(std::string_view bytes, const std::string& where,
   }
 }
 
-/// Huffman tables of a segment (ITU-T T.81, B.2.4.2): the decoder must be able to build each of them.
+/// Huffman tables of a segment (ITU-T T.81, B.2.4.2): the decoder must be able to build each of them. It marks a code
+/// as long by the index 255, which no symbol may have.
 inline void check_huffman_tables(std::string_view segment, const std::string& where, const BigEndian& file) {
   BigEndian tables(segment, where);
   while (tables.left() > 0) {
@@ -96,8 +97,8 @@ inline void check_huffman_tables(std::string_view segment, const std::string& wh
       const std::size_t n = tables.number(1);
       symbols += n;
       codes = 2 * codes + n;
-      if (codes > std::size_t{1} << length || symbols > 256)
-        file.refuse("a Huffman table ends that has too many codes", "a prefix code of at most 256 symbols");
+      if (codes > std::size_t{1} << length || symbols > 255)
+        file.refuse("a Huffman table ends that has too many codes", "a prefix code of at most 255 symbols");
     }
     if (symbols > tables.left()) file.refuse("half a Huffman table ends", "all of its symbols");
     tables.take(symbols);
@@ -171,6 +172,17 @@ inline RawPicture decode_raw_picture(std::string_view bytes, const std::string& 
     return decode_with_stb<stbi_uc>(bytes, where, check_jpeg(bytes, where, limits), stbi_load_from_memory);
   if (PnmReader::recognises(bytes)) return PnmReader(bytes, where, limits).read();
   throw Error(where, bytes.empty() ? "an empty file" : "no picture that is known", "PNG, JPEG, PGM or PPM");
+}
+
+/// How many pixels a PNG or JPEG would be decoded to, by its header; 0 of other files, which are no smaller than what
+/// they hold. Throws Error as decoding does.
+inline std::size_t coded_pixels(std::string_view bytes, const std::string& where, const PictureLimits& limits = {}) {
+  detail::PictureHeader header;
+  if (bytes.starts_with(detail::png_signature))
+    header = detail::check_png(bytes, where, limits);
+  else if (bytes.starts_with("\xFF\xD8"))
+    header = detail::check_jpeg(bytes, where, limits);
+  return header.width * header.height;
 }
 
 /// A picture in colour, 8 bits a value; a grey one becomes one of three equal values.

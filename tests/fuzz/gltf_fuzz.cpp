@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+
+// Any bytes as a glTF file, JSON or binary: refused with an Error, or a scene that fits together.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include <vantage/io/gltf.hpp>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace vantage;
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const SceneLimits limits{.bytes = 1 << 20, .triangles = 4096, .texture_pixels = 1 << 14, .textures = 4};
+  try {
+    const LoadedScene loaded = GltfReader(bytes, "input", limits).read("/nowhere");
+    loaded.scene.validate("what was read");
+    if (loaded.part.size() != loaded.scene.mesh.triangles.size()) std::abort();
+    for (const std::uint32_t part : loaded.part)
+      if (part >= loaded.parts.size()) std::abort();
+  } catch (const Error& e) {
+    if (std::string(e.what()).starts_with("what was read")) std::abort();
+  }
+  return 0;
+}
