@@ -173,9 +173,7 @@ TEST_F(RealCastle, AlignmentFindsThePosesThatWereNotRecorded) {
     EXPECT_GT(aligned->overlap, 0.7) << i;
     EXPECT_GT(aligned->conditioning, 0.05) << i;
     view = aligned->view;
-    if (i % 7 == 1) {
-      EXPECT_NEAR(floor_m(i, view), floor_at_first_m, 6e-4) << i;
-    }
+    if (i % 7 == 1) { EXPECT_NEAR(floor_m(i, view), floor_at_first_m, 6e-4) << i; }
   }
   EXPECT_GT(distance_m(view, poses[0]), 0.05);  // it has turned
 }
