@@ -17,9 +17,11 @@
 #include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/core/units.hpp>
+#include <vantage/geometry/alignment.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/camera.hpp>
 #include <vantage/geometry/colour_image.hpp>
+#include <vantage/geometry/depth_surface.hpp>
 #include <vantage/geometry/field_image.hpp>
 #include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/image.hpp>

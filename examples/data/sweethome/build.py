@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The vantage authors
 # SPDX-License-Identifier: MIT
-"""A home, or one room of it, as triangles: walls with their openings, floors, ceilings, furniture. What the authors left
-plain is dressed by seed: textures on floors and half of the walls, textured stand-ins for plain furniture."""
+"""A home, or one room of it, as triangles: walls with their openings, floors, ceilings, furniture. What the authors
+left plain is dressed by seed: textures on floors and half of the walls, textured stand-ins for plain furniture."""
 import collections
 import math
 import random
@@ -24,7 +24,8 @@ def solid(colour):
 
 
 def surface(material, triangles, uv=None):
-    return meshes.Part(material, np.array(triangles, float).reshape(-1, 3, 3), None if uv is None else np.array(uv, float))
+    uv = None if uv is None else np.array(uv, float)
+    return meshes.Part(material, np.array(triangles, float).reshape(-1, 3, 3), uv)
 
 
 class Builder:
@@ -134,9 +135,8 @@ class Builder:
         material, size = self.material("Floor", f"{room.name}{k}", room.floor, 1.0,
                                        "Tile" if wet else "wooden|redTiles|stoneTiles")
         height = np.zeros((*flat.shape[:2], 1))
-        self.scene.add(f"floor_{k}", "floor",
-                       [surface(material, np.concatenate([flat, height], axis=2), None if size is None else flat / size)],
-                       name=room.name)
+        floor = surface(material, np.concatenate([flat, height], axis=2), None if size is None else flat / size)
+        self.scene.add(f"floor_{k}", "floor", [floor], name=room.name)
         above = np.concatenate([flat, height + self.home.wall_height - GAP], axis=2)[:, ::-1]
         self.scene.add(f"ceiling_{k}", "ceiling", [surface(solid(room.ceiling), above)], name=room.name)
 
@@ -151,7 +151,8 @@ class Builder:
             bare = [q for q in samples if not any(plan.distance_to_segment(q, c, d) < most for most, c, d in lines)]
             if length > 0.08 and bare:
                 h = self.home.wall_height
-                self.scene.add(f"closure_{k}", "wall", [surface(solid((0.9, 0.9, 0.87)), quad([*a, 0], [*b, 0], [*b, h], [*a, h]))])
+                stretch = quad([*a, 0], [*b, 0], [*b, h], [*a, h])
+                self.scene.add(f"closure_{k}", "wall", [surface(solid((0.9, 0.9, 0.87)), stretch)])
 
     def add_shell(self):
         """A floor and a ceiling under and over everything, and a box around it: no ray gets out."""
@@ -161,9 +162,11 @@ class Builder:
             slab = quad([low[0], low[1], z], [high[0], low[1], z], [high[0], high[1], z], [low[0], high[1], z])
             self.scene.add(f"{kind}_slab", kind, [surface(solid((0.7, 0.68, 0.65)), slab)])
         low[2], high[2] = min(low[2], -0.05), max(high[2], self.home.wall_height + 0.05)
-        p = [[x, y, z] for z in (low[2], high[2]) for x, y in ((low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1]))]
+        (x0, y0, z0), (x1, y1, z1) = low, high
+        p = [[x, y, z] for z in (z0, z1) for x, y in ((x0, y0), (x1, y0), (x1, y1), (x0, y1))]
         faces = ((0, 1, 2, 3), (7, 6, 5, 4), (0, 4, 5, 1), (1, 5, 6, 2), (2, 6, 7, 3), (3, 7, 4, 0))  # seen from inside
-        self.scene.add("outer_shell", "wall", [surface(solid((0.8, 0.8, 0.78)), [quad(*(p[i] for i in f)) for f in faces])])
+        box = [quad(*(p[i] for i in f)) for f in faces]
+        self.scene.add("outer_shell", "wall", [surface(solid((0.8, 0.8, 0.78)), box)])
 
     # ---- furniture
 

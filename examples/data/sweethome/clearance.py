@@ -10,8 +10,7 @@ STEP = 0.2
 
 
 def to_triangles(p, corners):
-    """The distance from a point to the nearest of the triangles (n, 3, 3); Ericson, Real-time collision detection, 5.1.5,
-    as the least of the distances to the plane, where its foot lies inside, and to the edges."""
+    """The distance from a point to the nearest of the triangles (n, 3, 3); the least of the distances to the plane, where its foot lies inside, and to the edges."""
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     normal = np.cross(b - a, c - a)
     size = np.maximum(np.linalg.norm(normal, axis=1), 1e-12)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The vantage authors
 # SPDX-License-Identifier: MIT
-"""An example home of Sweet Home 3D, read from its XML and turned into metres: x right, y up on the plan (the file's y runs
-down), z up. One storey."""
+"""An example home of Sweet Home 3D, read from its XML and turned into metres: x right, y up on the plan (the file's y
+runs down), z up. One storey."""
 import dataclasses
 import math
 import typing

@@ -62,7 +62,8 @@ def difference(a, b):
 def stand_in(piece, kind, catalogue, count, choice):
     """A textured model of the same class and about the same proportions, chosen by `choice`; or none. `count`: how many
     such pieces there are."""
-    if kind not in STAND_INS or piece.rotation or not 0 <= piece.elevation < 0.05 and kind not in ("plant", "lamp", "tv"):
+    may_stand_on_things = kind in ("plant", "lamp", "tv")
+    if kind not in STAND_INS or piece.rotation or not (may_stand_on_things or 0 <= piece.elevation < 0.05):
         return None
     if re.search("pendant|wall|spot|corner|bunk|loft|crib", piece.catalogue, re.IGNORECASE):
         return None

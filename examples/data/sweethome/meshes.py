@@ -67,7 +67,7 @@ def triangles_of(polygon):
 
 
 def read_obj(path, default_materials):
-    """The parts of an OBJ file by name of material, and whether a polygon or index is off: such faces are left out."""
+    """The parts of an OBJ file, as (name of material, part). Faces with an index that does not exist are left out."""
     path = pathlib.Path(path)
     points, uvs, materials, faces, current = [], [], {}, {}, "default"
     for line in path.read_text(errors="replace").replace("\\\n", " ").splitlines():
@@ -97,7 +97,8 @@ def read_obj(path, default_materials):
     found = []
     for name, (corners, uv) in faces.items():
         material = materials.get(name) or default_materials.get(name, Material())
-        found.append((name, Part(material, np.array(corners, float), np.array(uv, float) if material.textured() else None)))
+        uv = np.array(uv, float) if material.textured() else None
+        found.append((name, Part(material, np.array(corners, float), uv)))
     return found
 
 
