@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 
 #include <vantage/core/error.hpp>
+#include <vantage/core/units.hpp>
+#include <vantage/geometry/camera.hpp>
 #include <vantage/mission/command_line.hpp>
 
 namespace scene {
