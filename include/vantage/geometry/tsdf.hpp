@@ -35,6 +35,9 @@ namespace vantage {
 /// bricks of 8^3 voxels that its pixels' bands (from truncation before to truncation behind the surface, along the ray)
 /// touch.
 ///
+/// Oblique rays make a surface too thick, the more so the larger the truncation: a sphere of 0.6 m radius seen from all
+/// sides grows by 1.4 mm at 10 cm, by less than 0.1 mm at 4 cm (2 cm voxels, no noise).
+///
 /// Voxel (0, 0, 0) is centred at bounds().min() + voxel_m / 2. Memory: 4 bytes for each of the bricks that fit into the
 /// bounds, and 8 bytes a voxel of those that were touched, 20 with colour, in slabs of 512 bricks. Models Map (of
 /// frames) and ColouredBrickVolume (for marching_cubes). Const members may run concurrently; `integrate` uses all
@@ -278,7 +281,7 @@ inline void Tsdf::update(const Projection& in, const Eigen::Vector3i& corner, fl
   const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy);
   const auto cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy);
   const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
-  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float nan = std::numeric_limits<float>::quiet_NaN(), truncation = in.truncation;
   const float *depth = in.frame.depth.data(), *off_x = in.offset.data(), *off_y = off_x + 64, *off_z = off_x + 128;
   const Eigen::Vector3d first_voxel = in.origin + in.voxel_m * (brick_edge * corner).cast<double>();
   const Eigen::Vector3f first = (in.T_C_W * first_voxel).cast<float>();
@@ -302,14 +305,14 @@ inline void Tsdf::update(const Projection& in, const Eigen::Vector3i& corner, fl
       const std::int32_t p = pixel[static_cast<std::size_t>(i)];
       const float d = p < 0 ? nan : depth[p];
       distance[i] = (d - z[i]) * square[i] * inverse_z[i];
-      seen += distance[i] >= -in.truncation;
+      seen += distance[i] >= -truncation;
     }
     if (seen == 0) continue;
     float *mean = brick + 64 * k, *weight = mean + brick_samples;
     Slice share;  // of this frame in the new mean
     for (int i = 0; i < 64; ++i) {
-      const bool sees = distance[i] >= -in.truncation;
-      const float value = distance[i] < in.truncation ? distance[i] : in.truncation;
+      const bool sees = distance[i] >= -truncation;
+      const float value = distance[i] < truncation ? distance[i] : truncation;
       const float n = weight[i] + (sees ? 1.0F : 0.0F), one_in_n = 1 / n;
       weight[i] = n;
       share[i] = sees ? one_in_n : 0;
