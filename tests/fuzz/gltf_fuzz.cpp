@@ -13,14 +13,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace vantage;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
   const SceneLimits limits{.bytes = 1 << 20, .triangles = 4096, .texture_pixels = 1 << 14, .textures = 4};
+  bool read = false;
   try {
     const LoadedScene loaded = GltfReader(bytes, "input", limits).read("/nowhere");
-    loaded.scene.validate("what was read");
+    read = true;
+    loaded.scene.validate("scene");
     if (loaded.part.size() != loaded.scene.mesh.triangles.size()) std::abort();
     for (const std::uint32_t part : loaded.part)
       if (part >= loaded.parts.size()) std::abort();
-  } catch (const Error& e) {
-    if (std::string(e.what()).starts_with("what was read")) std::abort();
+  } catch (const Error&) {
+    if (read) std::abort();  // what a reader lets through is valid
   }
   return 0;
 }

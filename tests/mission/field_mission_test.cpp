@@ -19,48 +19,20 @@
 #include <vantage/io/file.hpp>
 #include <vector>
 
-#include "toy/folder.hpp"
+#include "mission_program.hpp"
 
 // The program examples/field, as its users start it.
 namespace {
 
 using namespace vantage;
 
-std::string text_of(const std::filesystem::path& file) { return read_file(file, std::size_t{1} << 30); }
 nlohmann::json mission(const std::filesystem::path& out) {
   return nlohmann::json::parse(text_of(out / "mission.json"));
 }
 
-class FieldMission : public testing::Test {
+class FieldMission : public MissionProgram {
  protected:
-  const std::filesystem::path program = std::filesystem::path(VANTAGE_PROGRAMS_DIR) / ".." / "examples" / "field";
-  const toy::Folder folder;
-
-  void SetUp() override {
-    if (!std::filesystem::exists(program)) GTEST_SKIP() << "the examples are not built";
-  }
-  struct Ended {
-    int code;
-    std::string out, err;
-  };
-  [[nodiscard]] ::pid_t start(const std::string& arguments) const {
-    std::string shell = "/bin/sh", c = "-c";
-    std::string line = "exec '" + program.string() + "' " + arguments + " >'" + (folder.path / "out.txt").string() +
-                       "' 2>'" + (folder.path / "err.txt").string() + "'";
-    char* argv[] = {shell.data(), c.data(), line.data(), nullptr};
-    ::pid_t pid = -1;
-    return ::posix_spawn(&pid, shell.c_str(), nullptr, nullptr, argv, environ) == 0 ? pid : -1;
-  }
-  [[nodiscard]] Ended run(const std::string& arguments) const {
-    const ::pid_t pid = start(arguments);
-    int status = -1;
-    ::waitpid(pid, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder.path / "out.txt"),
-            text_of(folder.path / "err.txt")};
-  }
-  [[nodiscard]] std::string out(const std::string& name) const {
-    return " --out '" + (folder.path / name).string() + "'";
-  }
+  FieldMission() : MissionProgram("field") {}
   [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
     std::ofstream(folder.path / name) << text;
     return " --field '" + (folder.path / name).string() + "'";

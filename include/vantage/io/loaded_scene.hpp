@@ -23,7 +23,7 @@ namespace vantage {
 /// What a scene may cost; whatever is larger is refused before it is allocated.
 struct SceneLimits {
   std::size_t bytes = std::size_t{2} << 30;  ///< of each file but pictures
-  std::size_t triangles = std::size_t{1} << 27;
+  std::size_t triangles = std::size_t{1} << 25;
   std::size_t texture_pixels = std::size_t{1} << 29;  ///< of all textures
   std::size_t textures = 4096;
   PictureLimits picture = {};
@@ -35,9 +35,11 @@ struct LoadedScene {
   std::vector<std::string> parts;   ///< OBJ objects or groups, glTF nodes; each name once
   std::vector<std::uint32_t> part;  ///< of each triangle, which of parts
 
-  /// A line in Scene::notes, unless it stands there.
+  /// A line in Scene::notes, unless it stands there or there are a hundred.
   void note(const std::string& line) {
-    if (std::find(scene.notes.begin(), scene.notes.end(), line) == scene.notes.end()) scene.notes.push_back(line);
+    if (scene.notes.size() > 100 || std::find(scene.notes.begin(), scene.notes.end(), line) != scene.notes.end())
+      return;
+    scene.notes.push_back(scene.notes.size() < 100 ? line : "and more");
   }
 };
 

@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -165,6 +166,7 @@ class ObjReader {
   }
   void add_library(const Library& library) {
     const std::string name(lines_.rest());
+    if (!libraries_.insert(name).second) return;
     const std::optional<std::string> text = library(name);
     if (text)
       known_.merge(parse_mtl(*text, name));
@@ -191,13 +193,14 @@ class ObjReader {
     if (loaded_.scene.textures.empty()) loaded_.scene.uv.clear();
   }
 
-  TextLines lines_;
+  ObjLines lines_;
   SceneLimits limits_;
   std::vector<Eigen::Vector2f> uv_;
   std::vector<Corner> corners_;
   Names part_names_, material_names_;
   std::optional<std::uint32_t> part_, material_;
   bool objects_ = false;
+  std::set<std::string> libraries_;
   std::map<std::string, MtlMaterial> known_;
   LoadedScene loaded_;
 };

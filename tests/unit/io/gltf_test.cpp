@@ -76,6 +76,19 @@ TEST(Gltf, RefusesWhatDoesNotFit) {
                  "nested deeper than 64");
 }
 
+TEST(Gltf, ReplacesAMissingPictureByTheColour) {
+  std::string text =
+      triangle("", R"(,"materials":[{"pbrMetallicRoughness":{"baseColorFactor":[1,0,0.2158605,1],)"
+                   R"("baseColorTexture":{"index":0}}}],"textures":[{"source":0}],"images":[{"uri":"no.png"}])");
+  text.replace(text.find("\"indices\":1"), 11, "\"indices\":1,\"material\":0");
+  const Scene s = read(text).scene;
+  ASSERT_EQ(s.notes.size(), 1u);
+  EXPECT_NE(s.notes[0].find("no.png: no such file"), std::string::npos) << s.notes[0];
+  EXPECT_TRUE(s.materials[s.material[0]].colour.isApprox(Eigen::Vector3f(1, 0, 128 / 255.0F), 1e-3F))
+      << "display-encoded";
+  s.validate("a");
+}
+
 TriangleMesh coloured() {
   return {{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}},
           {{0, 2, 1}, {0, 1, 3}},

@@ -92,6 +92,15 @@ TEST(Obj, ReadsTexturesAndReplacesWhatIsMissing) {
   EXPECT_EQ(plain.notes[0], "a.obj: there is no 'x.mtl'; its materials are grey");
 }
 
+TEST(Obj, ManyNotesEndInOne) {
+  std::string text = "mtllib m\nmtllib m\n" + std::string(square);
+  for (int i = 0; i < 1000; ++i) text += concat("usemtl m", i, "\nf 1 2 3\n");
+  const std::vector<std::string> notes = parse(text, "newmtl a\n").scene.notes;
+  ASSERT_EQ(notes.size(), 101u);
+  EXPECT_EQ(notes[0], "a.obj: no material 'm0'; it is grey");
+  EXPECT_EQ(notes[100], "and more");
+}
+
 TEST(Obj, RefusesWithTheLine) {
   EXPECT_REFUSED(parse("v 0 0 0\nv 1 nan 0\n"), "a.obj:2: vertex 1 is (");
   EXPECT_REFUSED(parse("v 0 0 0\n\nv 1 1e99 0\n"), "a.obj:3: vertex 1 is (");
