@@ -15,7 +15,7 @@
 #include <vantage/io/file.hpp>
 #include <vantage/io/printable.hpp>
 #include <vantage/io/recording.hpp>
-#include <vantage/io/text_lines.hpp>
+#include <vantage/io/word_lines.hpp>
 
 // COLMAP's sparse models as text (Schoenberger and Frahm, "Structure-from-motion revisited", CVPR 2016): cameras.txt
 // and images.txt. Its camera axes and pixel centres are ours; its world has an arbitrary scale and direction of up.
@@ -26,7 +26,7 @@ namespace vantage {
 inline std::map<long, Camera> parse_colmap_cameras(std::string_view text, const std::string& where) {
   constexpr long most = 1L << 32;
   std::map<long, Camera> out;
-  for (TextLines lines(text, where); lines.next();) {
+  for (WordLines lines(text, where); lines.next();) {
     const long id = lines.integer(0, 0, most);
     const std::string_view model = lines.word(1);
     const bool simple = model == "SIMPLE_PINHOLE";
@@ -61,7 +61,7 @@ struct ColmapImage {
 /// image's points, which are not read. In the order of names. Throws Error naming the line.
 inline std::vector<ColmapImage> parse_colmap_images(std::string_view text, const std::string& where) {
   std::vector<ColmapImage> out;
-  for (TextLines lines(text, where, {.bytes = std::size_t{1} << 30}); lines.next(); lines.skip()) {
+  for (WordLines lines(text, where, {.bytes = std::size_t{1} << 30}); lines.next(); lines.skip()) {
     const auto n = [&](std::size_t i) { return lines.number(i); };
     const Eigen::Isometry3d T_C_W =
         rigid_transform(Eigen::Quaterniond(n(1), n(2), n(3), n(4)), {n(5), n(6), n(7)}, lines.where());
@@ -78,7 +78,7 @@ inline Recording read_colmap_recording(const std::filesystem::path& model, const
     throw Error(model.string(), "this COLMAP model is binary",
                 "text: colmap model_converter --input_path DIR --output_path DIR --output_type TXT");
   const std::filesystem::path cameras_file = model / "cameras.txt", images_file = model / "images.txt";
-  const auto cameras = parse_colmap_cameras(read_file(cameras_file, TextLimits{}.bytes), cameras_file.string());
+  const auto cameras = parse_colmap_cameras(read_file(cameras_file, WordLimits{}.bytes), cameras_file.string());
   std::vector<RecordedFrame> frames;
   for (const ColmapImage& image :
        parse_colmap_images(read_file(images_file, std::size_t{1} << 30), images_file.string())) {

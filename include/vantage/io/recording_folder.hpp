@@ -18,7 +18,7 @@
 #include <vantage/io/json.hpp>
 #include <vantage/io/printable.hpp>
 #include <vantage/io/recording.hpp>
-#include <vantage/io/text_lines.hpp>
+#include <vantage/io/word_lines.hpp>
 
 // The plainest recording, and what this project's scripts write:
 //
@@ -46,7 +46,7 @@ inline std::pair<Camera, std::optional<double>> parse_camera(std::string_view te
        {"cx", &cx},
        {"cy", &cy},
        {"depth_unit_m", &depth_unit_m}}};
-  for (TextLines lines(text, where); lines.next();) {
+  for (WordLines lines(text, where); lines.next();) {
     const auto* member =
         std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.first == lines.word(0); });
     if (member == members.end())
@@ -72,7 +72,7 @@ inline std::pair<Camera, std::optional<double>> parse_camera(std::string_view te
 /// The poses of a poses.txt. Throws Error naming the line.
 inline std::vector<View> parse_poses(std::string_view text, const std::string& where) {
   std::vector<View> out;
-  for (TextLines lines(text, where); lines.next();) {
+  for (WordLines lines(text, where); lines.next();) {
     if (lines.size() != 16 && lines.size() != 12)
       lines.refuse(concat(lines.size(), " numbers"), "16 or 12: a 4 x 4 or 3 x 4 matrix, row by row");
     Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
@@ -155,8 +155,8 @@ inline std::vector<RecordedFrame> frames(const std::filesystem::path& poses_file
 /// Reads the plain folder described above. Throws Error naming the file (and line) that is missing or wrong.
 inline Recording read_folder_recording(const std::filesystem::path& folder) {
   const std::filesystem::path camera_file = folder / "camera.txt", poses_file = folder / "poses.txt";
-  const auto [camera, depth_unit_m] = parse_camera(read_file(camera_file, TextLimits{}.bytes), camera_file.string());
-  const std::vector<View> poses = parse_poses(read_file(poses_file, TextLimits{}.bytes), poses_file.string());
+  const auto [camera, depth_unit_m] = parse_camera(read_file(camera_file, WordLimits{}.bytes), camera_file.string());
+  const std::vector<View> poses = parse_poses(read_file(poses_file, WordLimits{}.bytes), poses_file.string());
   const auto colour = detail::pictures(folder / "colour"), depth = detail::pictures(folder / "depth"),
              labels = detail::pictures(folder / "labels");
   if (colour.empty() && depth.empty()) throw Error(folder.string(), "no pictures in colour/ or depth/", "one a pose");
@@ -175,7 +175,7 @@ inline Recording read_replica_recording(const std::filesystem::path& folder) {
   const auto value = [&](const char* name) { return json.at(name).number(); };
   const Camera camera{side("w"), side("h"), value("fx"), value("fy"), value("cx") + 0.5, value("cy") + 0.5};
   camera.validate();
-  const std::vector<View> poses = parse_poses(read_file(poses_file, TextLimits{}.bytes), poses_file.string());
+  const std::vector<View> poses = parse_poses(read_file(poses_file, WordLimits{}.bytes), poses_file.string());
   const auto colour = detail::pictures(folder / "results", "frame"),
              depth = detail::pictures(folder / "results", "depth");
   return {folder.string(), detail::frames(poses_file, poses, camera, colour, depth, {}),

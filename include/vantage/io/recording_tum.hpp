@@ -15,7 +15,7 @@
 #include <vantage/io/file.hpp>
 #include <vantage/io/frame_pictures.hpp>
 #include <vantage/io/recording.hpp>
-#include <vantage/io/text_lines.hpp>
+#include <vantage/io/word_lines.hpp>
 
 // Recordings as the TUM RGB-D benchmark lays them out (Sturm et al., "A benchmark for the evaluation of RGB-D SLAM
 // systems", IROS 2012): rgb.txt, depth.txt ("time file") and groundtruth.txt ("time tx ty tz qx qy qz qw": optical
@@ -53,14 +53,14 @@ struct TumConfig {
 /// A list of files ("time name" a line), in the order of time. Throws Error naming the line.
 inline std::vector<Timed<std::string>> parse_tum_list(std::string_view text, const std::string& where) {
   std::vector<Timed<std::string>> out;
-  for (TextLines lines(text, where); lines.next();) out.push_back({lines.number(0), std::string(lines.rest(1))});
+  for (WordLines lines(text, where); lines.next();) out.push_back({lines.number(0), std::string(lines.rest(1))});
   return sorted_by_time(out);
 }
 
 /// A trajectory ("time tx ty tz qx qy qz qw" a line), in the order of time. Throws Error naming the line.
 inline std::vector<Timed<View>> parse_tum_trajectory(std::string_view text, const std::string& where) {
   std::vector<Timed<View>> out;
-  for (TextLines lines(text, where); lines.next();) {
+  for (WordLines lines(text, where); lines.next();) {
     const auto n = [&](std::size_t i) { return lines.number(i); };
     const double time_s = n(0);
     const Eigen::Vector3d t(n(1), n(2), n(3));
@@ -84,7 +84,7 @@ const Timed<T>* nearest_in_time(const std::vector<Timed<T>>& sorted, double time
 
 /// fx fy cx cy, with the centre of the top left pixel at (0, 0) as OpenCV and this benchmark count.
 inline Camera parse_tum_calibration(std::string_view text, const std::string& where, int width, int height) {
-  TextLines lines(text, where);
+  WordLines lines(text, where);
   if (!lines.next()) throw Error(where, "the file is empty", "fx fy cx cy");
   if (lines.size() != 4) lines.refuse(concat(lines.size(), " numbers"), "fx fy cx cy: a pinhole without distortion");
   const Camera camera{width, height, lines.number(0), lines.number(1), lines.number(2) + 0.5, lines.number(3) + 0.5};
@@ -99,7 +99,7 @@ inline Recording read_tum_recording(const std::filesystem::path& folder, const T
   check.positive("depth_per_m", config.depth_per_m);
   check.not_negative("most_difference_s", config.most_difference_s);
   check.done();
-  const auto text = [&](const char* name) { return read_file(folder / name, TextLimits{}.bytes); };
+  const auto text = [&](const char* name) { return read_file(folder / name, WordLimits{}.bytes); };
   const auto list = [&](const char* name) { return parse_tum_list(text(name), (folder / name).string()); };
   const auto colour = list("rgb.txt"), depth = list("depth.txt");
   const auto poses = parse_tum_trajectory(text("groundtruth.txt"), (folder / "groundtruth.txt").string());

@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include <vantage/io/text_lines.hpp>
+#include <vantage/io/word_lines.hpp>
 
 namespace vantage {
 namespace {
 
-TEST(TextLines, WordsOfTheLinesThatCount) {
-  TextLines lines("# a comment 1 2 3\n\n  one\t2.5  three four \r\n   \n-7 +1e-3\nlast", "file");
+TEST(WordLines, WordsOfTheLinesThatCount) {
+  WordLines lines("# a comment 1 2 3\n\n  one\t2.5  three four \r\n   \n-7 +1e-3\nlast", "file");
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.size(), 4U);
   EXPECT_EQ(lines.word(0), "one");
@@ -26,8 +26,8 @@ TEST(TextLines, WordsOfTheLinesThatCount) {
   EXPECT_FALSE(lines.next());
 }
 
-TEST(TextLines, SkipLeavesOutALineWhateverItHolds) {
-  TextLines lines(std::string_view("a\n\x01 binary\nb\n\nc\n", 16), "file");
+TEST(WordLines, SkipLeavesOutALineWhateverItHolds) {
+  WordLines lines(std::string_view("a\n\x01 binary\nb\n\nc\n", 16), "file");
   std::string seen;
   while (lines.next()) {
     seen += lines.word(0);
@@ -37,9 +37,9 @@ TEST(TextLines, SkipLeavesOutALineWhateverItHolds) {
 }
 
 // What is wrong is named, with its line.
-void refuses(std::string_view text, std::string_view named, const TextLimits& limits = {}) {
+void refuses(std::string_view text, std::string_view named, const WordLimits& limits = {}) {
   try {
-    TextLines lines(text, "file", limits);
+    WordLines lines(text, "file", limits);
     while (lines.next()) {
       (void)lines.number(1);
       (void)lines.integer(2, 0, 9);
@@ -48,7 +48,7 @@ void refuses(std::string_view text, std::string_view named, const TextLimits& li
   } catch (const Error& e) { EXPECT_NE(std::string(e.what()).find(named), std::string::npos) << e.what(); }
 }
 
-TEST(TextLines, RefusesWithTheLine) {
+TEST(WordLines, RefusesWithTheLine) {
   refuses("a 1 2\nb x 2\n", "file:2: 'x'");
   refuses("a 1 2\nb 1e999 2\n", "file:2: '1e999'");
   refuses("a nan 2\n", "file:1: 'nan'");
@@ -63,11 +63,11 @@ TEST(TextLines, RefusesWithTheLine) {
   refuses("a    1   2\n", "a line of 10 bytes", {.line_bytes = 9});
 }
 
-TEST(TextLines, CommentsMayBeLong) {
+TEST(WordLines, CommentsMayBeLong) {
   std::string text = "#";
   for (int i = 0; i < 200; ++i) text += " word";
   text += "\na 1 2\n";
-  TextLines lines(text, "file");
+  WordLines lines(text, "file");
   ASSERT_TRUE(lines.next());
   EXPECT_EQ(lines.word(0), "a");
 }

@@ -17,7 +17,7 @@
 namespace vantage {
 
 /// What a text of words may cost; whatever is larger is refused.
-struct TextLimits {
+struct WordLimits {
   std::size_t bytes = std::size_t{64} << 20;
   std::size_t words = 64;                         ///< of a line
   std::size_t lines = std::size_t{1} << 20;       ///< that are not comments
@@ -26,9 +26,9 @@ struct TextLimits {
 
 /// The lines of a text, word by word, as lists of pictures and poses are written: words stand between blanks, a line
 /// that is blank or starts with # does not count. Does not own the text.
-class TextLines {
+class WordLines {
  public:
-  TextLines(std::string_view text, std::string where, const TextLimits& limits = {})
+  WordLines(std::string_view text, std::string where, const WordLimits& limits = {})
       : text_(text), where_(std::move(where)), limits_(limits) {
     if (text_.size() > limits_.bytes)
       throw Error(where_, concat(text_.size(), " bytes"), concat("at most ", limits_.bytes));
@@ -117,7 +117,7 @@ class TextLines {
 
   std::string_view text_, line_;
   std::string where_;
-  TextLimits limits_;
+  WordLimits limits_;
   std::vector<std::string_view> words_;
   std::size_t number_ = 0, count_ = 0;
 };
