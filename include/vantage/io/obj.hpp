@@ -230,7 +230,7 @@ inline LoadedScene read_obj(const std::filesystem::path& path, const SceneLimits
   const std::filesystem::path folder = path.parent_path();
   const std::string text = read_file(path, limits.bytes);
   const auto library = [&](const std::string& name) -> std::optional<std::string> {
-    if (!std::filesystem::exists(folder / name)) return std::nullopt;
+    if (!file_exists(folder / name)) return std::nullopt;
     return read_file(folder / name, limits.bytes);
   };
   return ObjReader(text, path.string(), limits).read(library, folder);
