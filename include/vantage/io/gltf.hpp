@@ -69,7 +69,7 @@ class GltfReader {
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(keep_image, this);
     loader.SetFsCallbacks(
-        {[](const std::string& name, void*) { return std::filesystem::is_regular_file(name); },
+        {[](const std::string& name, void*) { return file_exists(name); },
          [](const std::string& name, void*) { return name; }, read_companion,
          [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }, this});
     std::string error, warning;
@@ -83,8 +83,8 @@ class GltfReader {
       throw Error(where_, complaint_.empty() ? printable(error.substr(0, error.find('\n')), 200) : complaint_,
                   "glTF 2.0");
   }
-  /// tinygltf recurses into JSON and reads no further than it is told: its text is bounded here, and the chunks of a
-  /// binary file are found whole.
+  /// tinygltf recurses into JSON, and hands on pictures of a buffer without a look at the buffer's size: its text is
+  /// bounded here, and what views promise is compared with what buffers have.
   void check_container(bool binary) const {
     const JsonLimits json{.bytes = limits_.bytes};
     if (bytes_.size() > 0x7FFFFFFF) throw Error(where_, concat(bytes_.size(), " bytes"), "less than 2 GB");
@@ -92,8 +92,7 @@ class GltfReader {
       const std::size_t first = bytes_.find_first_not_of(" \t\r\n");
       if (first == bytes_.npos || bytes_[first] != '{')
         throw Error(where_, "no glTF file", "JSON, or a file that begins with 'glTF'");
-      static_cast<void>(parse_json(bytes_, where_, json));  // for its errors, which tell line and byte
-      return;
+      return check_views(parse_json(bytes_, where_, json));
     }
     const auto number = [&](std::size_t at) {
       if (at + 4 > bytes_.size())
@@ -107,7 +106,21 @@ class GltfReader {
     if (length > bytes_.size() || text + 20 > bytes_.size())
       throw Error(where_, concat("ends at byte ", bytes_.size()), concat(std::max(length, text + 20), " bytes"));
     if (number(16) != 0x4E4F534A) throw Error(where_, "no JSON chunk at byte 12", "JSON first");
-    static_cast<void>(parse_json(bytes_.substr(20, text), where_ + ", JSON chunk", json));
+    check_views(parse_json(bytes_.substr(20, text), where_ + ", JSON chunk", json));
+  }
+  void check_views(const nlohmann::json& json) const {
+    const JsonItem root(json, where_);
+    const auto views = root.find("bufferViews"), buffers = root.find("buffers");
+    if (!views) return;
+    views->each([&](const JsonItem& view) {
+      if (!buffers) view.refuse("there is no buffer", "'buffers'");
+      const JsonItem buffer = buffers->at(view.at("buffer").count(std::size_t{1} << 31));
+      const std::size_t size = buffer.at("byteLength").count(std::size_t{1} << 31);
+      const auto offset = view.find("byteOffset");
+      const std::size_t begin = offset ? offset->count(size) : 0, length = view.at("byteLength").count(size);
+      if (length == 0 || length > size - begin)
+        view.refuse(concat(length, " bytes from byte ", begin, " of a buffer"), concat("1 or more, within ", size));
+    });
   }
   /// In place of a decoder of tinygltf's: pictures wait for ours.
   static bool keep_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,

@@ -39,6 +39,7 @@ class ObjReader {
   ObjReader(std::string_view text, std::string where, SceneLimits limits)
       : lines_(text, std::move(where)), limits_(limits) {
     loaded_.scene.materials.clear();
+    reserve(text);
   }
 
   /// `folder`: what textures are relative to.
@@ -73,6 +74,23 @@ class ObjReader {
   }
 
  private:
+  /// Room for what the lines promise: growing step by step would take half of the time.
+  void reserve(std::string_view text) {
+    std::size_t vertices = 0, coordinates = 0, faces = 0;
+    for (std::size_t at = 0; at + 2 < text.size(); at = std::min(text.find('\n', at), text.size() - 1) + 1) {
+      vertices += text[at] == 'v' && text[at + 1] == ' ';
+      coordinates += text[at] == 'v' && text[at + 1] == 't';
+      faces += text[at] == 'f';
+    }
+    const std::size_t most = text.size() / 8;  // the shortest line that is whole: "f 1 2 3"
+    faces = std::min({faces, most, limits_.triangles});
+    loaded_.scene.mesh.vertices.reserve(std::min(vertices, most));
+    loaded_.scene.mesh.triangles.reserve(faces);
+    loaded_.scene.material.reserve(faces);
+    loaded_.part.reserve(faces);
+    uv_.reserve(std::min(coordinates, most));
+    if (coordinates != 0) loaded_.scene.uv.reserve(faces);
+  }
   /// Names in the order in which they were first met.
   struct Names {
     std::vector<std::string> names;
@@ -212,7 +230,7 @@ inline LoadedScene read_obj(const std::filesystem::path& path, const SceneLimits
   const std::filesystem::path folder = path.parent_path();
   const std::string text = read_file(path, limits.bytes);
   const auto library = [&](const std::string& name) -> std::optional<std::string> {
-    if (!std::filesystem::exists(folder / name)) return std::nullopt;
+    if (!file_exists(folder / name)) return std::nullopt;
     return read_file(folder / name, limits.bytes);
   };
   return ObjReader(text, path.string(), limits).read(library, folder);

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -50,10 +51,11 @@ inline LoadedScene read_mesh_scene(const std::filesystem::path& path, const Scen
 inline Scene read_scene(const std::filesystem::path& path, const SceneLimits& limits = {}) {
   namespace fs = std::filesystem;
   fs::path description = path;
-  if (fs::is_directory(path)) {
+  std::error_code none;
+  if (fs::is_directory(path, none)) {
     description = path / "scene.json";
-    if (!fs::exists(description)) description = path / "object.json";
-    if (!fs::exists(description))
+    if (!file_exists(description)) description = path / "object.json";
+    if (!file_exists(description))
       throw Error(path.string(), "a folder without a scene", "scene.json or object.json in it");
   }
   Scene scene;
@@ -65,7 +67,7 @@ inline Scene read_scene(const std::filesystem::path& path, const SceneLimits& li
       mesh = description.parent_path() / name->text();
     } else {
       for (const char* usual : {"scene.obj", "model.obj"})
-        if (!mesh && fs::exists(description.parent_path() / usual)) mesh = description.parent_path() / usual;
+        if (!mesh && file_exists(description.parent_path() / usual)) mesh = description.parent_path() / usual;
     }
     scene = SceneDescription(root, mesh ? read_mesh_scene(*mesh, limits) : LoadedScene{}).apply();
   } else {

@@ -57,7 +57,10 @@ TEST(Gltf, RefusesWhatDoesNotFit) {
   };
   EXPECT_REFUSED(read(with("\"count\":3,\"type\":\"VEC3\"", "\"count\":4,\"type\":\"VEC3\"")),
                  "accessor 0: 4 elements of 12 bytes");
-  EXPECT_REFUSED(read(with("\"byteLength\":36", "\"byteLength\":99")), "its view ends at byte");
+  EXPECT_REFUSED(read(with("\"byteLength\":36", "\"byteLength\":99")), "a.gltf: /bufferViews/0/byteLength: 99");
+  EXPECT_REFUSED(read(with("\"byteOffset\":36", "\"byteOffset\":40")),
+                 "a.gltf: /bufferViews/1: 6 bytes from byte 40 of a buffer; expected 1 or more, within 42");
+  EXPECT_REFUSED(read(triangle("", R"(,"images":[{"bufferView":9,"mimeType":"image/png"}])")), "image[0] bufferView");
   EXPECT_REFUSED(read(with("\"POSITION\":0", "\"POSITION\":7")), "accessor 7: there is none");
   EXPECT_REFUSED(read(with("AAAAAAABAAIA", "AAAAAAABAAcA")), "a triangle uses vertex 7; expected below 3");
   EXPECT_REFUSED(read(with("AACAPwAA", "AADAfwAA")), "vertex 1 of 'part' is (");

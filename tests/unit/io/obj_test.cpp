@@ -87,6 +87,10 @@ TEST(Obj, ReadsTexturesAndReplacesWhatIsMissing) {
   EXPECT_NE(s.notes[1].find("broken.jpg: ends at byte 3"), std::string::npos) << s.notes[1];
   EXPECT_REFUSED(read_obj(path, {.texture_pixels = 5}), "6 pixels in all; expected at most 5");
 
+  const auto long_name =
+      folder.put("l.obj", "mtllib " + std::string(5000, 'm') + "\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
+  EXPECT_EQ(read_obj(long_name).scene.notes.size(), 1u) << "a name that no file can have";
+
   const Scene plain = parse("mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl a\nf 1 2 3\n").scene;
   ASSERT_EQ(plain.notes.size(), 1u);
   EXPECT_EQ(plain.notes[0], "a.obj: there is no 'x.mtl'; its materials are grey");
