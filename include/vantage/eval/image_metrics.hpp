@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -74,6 +76,53 @@ inline std::array<float, 11> ssim_window() {
   return window;
 }
 
+/// f(integral_constant<n>, i): chunks of n = 16 that the compiler keeps in registers, then single ones.
+template <class F>
+void in_chunks(std::size_t size, F&& f) {
+  std::size_t i = 0;
+  for (; i + 16 <= size; i += 16) f(std::integral_constant<int, 16>(), i);
+  for (; i < size; ++i) f(std::integral_constant<int, 1>(), i);
+}
+
+template <int N>
+using Chunk = Eigen::Array<float, N, 1>;
+
+/// The weighted means of x, y, x^2 + y^2 and x y down N columns of a and b, each `width` after the one before. Of
+/// values less one half, which changes no covariance and loses fewer digits in the differences.
+template <int N>
+void weigh_columns(const std::array<float, 11>& window, const float* a, const float* b, std::size_t width, float* to) {
+  Chunk<N> x = Chunk<N>::Zero(), y = x, xx_yy = x, xy = x;
+  for (std::size_t t = 0; t < 11; ++t) {
+    const Chunk<N> p = Eigen::Map<const Chunk<N>>(a + t * width) - 0.5F;
+    const Chunk<N> q = Eigen::Map<const Chunk<N>>(b + t * width) - 0.5F;
+    x += window[t] * p;
+    y += window[t] * q;
+    xx_yy += window[t] * (p * p + q * q);
+    xy += window[t] * (p * q);
+  }
+  for (const Chunk<N>* mean : {&x, &y, &xx_yy, &xy}) {
+    Eigen::Map<Chunk<N>> out(to);
+    out = *mean;
+    to += width;
+  }
+}
+
+/// The similarity of N windows in a row, from what weigh_columns left.
+template <int N>
+void similarity(const std::array<float, 11>& window, const float* columns, std::size_t width, float* to) {
+  std::array<Chunk<N>, 4> mean;
+  for (Chunk<N>& m : mean) {
+    m = Chunk<N>::Zero();
+    for (std::size_t t = 0; t < 11; ++t) m += window[t] * Eigen::Map<const Chunk<N>>(columns + t);
+    columns += width;
+  }
+  constexpr float c1 = 0.01F * 0.01F, c2 = 0.03F * 0.03F;
+  const auto& [x, y, xx_yy, xy] = mean;
+  const Chunk<N> u = x + 0.5F, v = y + 0.5F, variances = xx_yy - x * x - y * y, covariance = xy - x * y;
+  Eigen::Map<Chunk<N>> out(to);
+  out = (2 * u * v + c1) * (2 * covariance + c2) / ((u * u + v * v + c1) * (variances + c2));
+}
+
 }  // namespace image_metrics
 
 /// Peak signal-to-noise ratio [dB] of images in [0, 1]: -10 log10 of the mean squared difference; infinite for equal
@@ -105,41 +154,18 @@ inline double ssim(const Image<float>& a, const Image<float>& b) {
   const std::array<float, 11> window = image_metrics::ssim_window();
   const auto width = static_cast<std::size_t>(a.cols()), out_width = width - taps + 1;
   const auto out_rows = static_cast<std::size_t>(a.rows() - taps + 1);
-  // Means of x, y, x^2 + y^2 and x y: down the columns, then along the rows; of values less one half, which changes no
-  // covariance and loses fewer digits in the differences.
   const double sum = parallel_sum(out_rows, 16, 0.0, [&](std::size_t begin, std::size_t end) {
     double strip = 0;
-    std::vector<float> column(4 * width), mean(4 * out_width);
+    std::vector<float> columns(4 * width), row_of_similarity(out_width);
     for (std::size_t row = begin; row < end; ++row) {
-      float *x = column.data(), *y = x + width, *xx_yy = y + width, *xy = xx_yy + width;
-      std::ranges::fill(column, 0.0F);
-      for (std::size_t t = 0; t < taps; ++t) {
-        const float w = window[t], *p = a.data() + (row + t) * width, *q = b.data() + (row + t) * width;
-        for (std::size_t i = 0; i < width; ++i) {
-          const float u = p[i] - 0.5F, v = q[i] - 0.5F;
-          x[i] += w * u;
-          y[i] += w * v;
-          xx_yy[i] += w * (u * u + v * v);
-          xy[i] += w * (u * v);
-        }
-      }
-      std::ranges::fill(mean, 0.0F);
-      for (std::size_t channel = 0; channel < 4; ++channel) {
-        float* to = mean.data() + channel * out_width;
-        for (std::size_t t = 0; t < taps; ++t) {
-          const float w = window[t], *from = column.data() + channel * width + t;
-          for (std::size_t i = 0; i < out_width; ++i) to[i] += w * from[i];
-        }
-      }
-      const float *mx = mean.data(), *my = mx + out_width, *m_xx_yy = my + out_width, *m_xy = m_xx_yy + out_width;
-      constexpr float c1 = 0.01F * 0.01F, c2 = 0.03F * 0.03F;
-      float* similarity = column.data();
-      for (std::size_t i = 0; i < out_width; ++i) {
-        const float u = mx[i] + 0.5F, v = my[i] + 0.5F;
-        const float variances = m_xx_yy[i] - mx[i] * mx[i] - my[i] * my[i], covariance = m_xy[i] - mx[i] * my[i];
-        similarity[i] = (2 * u * v + c1) * (2 * covariance + c2) / ((u * u + v * v + c1) * (variances + c2));
-      }
-      for (std::size_t i = 0; i < out_width; ++i) strip += static_cast<double>(similarity[i]);
+      image_metrics::in_chunks(width, [&](auto chunk, std::size_t i) {
+        image_metrics::weigh_columns<chunk()>(window, a.data() + row * width + i, b.data() + row * width + i, width,
+                                              columns.data() + i);
+      });
+      image_metrics::in_chunks(out_width, [&](auto chunk, std::size_t i) {
+        image_metrics::similarity<chunk()>(window, columns.data() + i, width, row_of_similarity.data() + i);
+      });
+      for (const float s : row_of_similarity) strip += static_cast<double>(s);
     }
     return strip;
   });
