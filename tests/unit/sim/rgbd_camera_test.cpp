@@ -7,6 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 namespace vantage {
@@ -139,6 +140,7 @@ TEST(RgbdCamera, NoiseIsAFunctionOfSeedAndView) {
   used.depth.resize(3, 3);
   camera.capture(here, used);
   EXPECT_TRUE(same(used, first));
+  const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
   for (const int threads : {1, 2, 8}) {
     tbb::task_arena arena(threads);
     EXPECT_TRUE(same(arena.execute([&] { return camera.capture(here); }), first));

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 
 #include <vantage/core/rng.hpp>
@@ -242,6 +243,7 @@ TEST(SceneRenderer, IsTheSameOnAnyNumberOfThreads) {
   scene.materials.clear();
   for (int i = 0; i < 5; ++i)
     scene.materials.push_back({.name = "", .colour = Eigen::Vector3f::Constant(0.2F * static_cast<float>(i))});
+  const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
   const auto on = [&](int threads) {
     tbb::task_arena arena(threads);
     return arena.execute([&] {
