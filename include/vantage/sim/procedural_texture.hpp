@@ -86,8 +86,8 @@ inline Texture plaster(const Colour& colour, Rng rng) {
 inline Texture wood(const Colour& colour, Rng rng) {
   const FractalNoise bend(2, 2, 2, rng.fork(0)), grain(2, 32, 3, rng.fork(1)), pores(8, 64, 2, rng.fork(2));
   return paint([&](float u, float v) -> Colour {
-    const float rings = 0.5F + 0.5F * std::sin(2 * std::numbers::pi_v<float> * (6 * v + 1.5F * bend(u, v)));
-    return colour * (0.72F + 0.16F * rings + 0.2F * grain(u, v) + 0.1F * (pores(u, v) - 0.5F));
+    const float rings = 0.5F + 0.5F * std::sin(2 * std::numbers::pi_v<float> * (9 * v + 1.2F * bend(u, v)));
+    return colour * (0.76F + 0.07F * rings + 0.22F * grain(u, v) + 0.1F * (pores(u, v) - 0.5F));
   });
 }
 

@@ -61,20 +61,22 @@ class SceneBuilder {
         [&](double s, double t) { return Eigen::Vector3d(origin + s * a + t * b); },
         [&](double s, double t) { return Eigen::Vector2d(s * repeats.x(), t * repeats.y()); });
   }
-  /// The box [low, high] [m]. Textures stand upright on its sides; wood's grain runs along u, the longer way on top.
+  /// The box [low, high] [m]. Textures run along the longer side of each face, as wood grows; those that cover a whole
+  /// face stand upright.
   void box(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Look& look) {
     const Eigen::Vector3d size = high - low, x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z());
-    quad(low, x, z, look);           // y = low, seen from -y
-    quad(low + x, y, z, look);       // x = high
-    quad(low + x + y, -x, z, look);  // y = high
-    quad(low + y, -y, z, look);      // x = low
-    if (size.x() >= size.y()) {
-      quad(low + z, x, y, look);   // top
-      quad(low + y, x, -y, look);  // underside
-    } else {
-      quad(low + z + x, y, -x, look);
-      quad(low, y, x, look);
-    }
+    const auto face = [&](const Eigen::Vector3d& origin, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+      if (look.repeat_m > 0 && b.norm() > a.norm())
+        quad(origin + a, b, -a, look);
+      else
+        quad(origin, a, b, look);
+    };
+    face(low, x, z);           // y = low, seen from -y
+    face(low + x, y, z);       // x = high
+    face(low + x + y, -x, z);  // y = high
+    face(low + y, -y, z);      // x = low
+    face(low + z, x, y);       // top
+    face(low + y, x, -y);      // underside
   }
   /// The solid that a polygon (radius, height) [m], from the lowest point on the axis to the highest, describes about
   /// the vertical line through `base`. Radii >= 0; a first or last radius above 0 is closed by a disc.
