@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstdint>
 #include <vector>
 
 #include <vantage/geometry/colour_image.hpp>
@@ -30,6 +31,9 @@ struct Entropy {
 struct Semantics {
   std::vector<Image<float>> probability;
 };  ///< one image a class
+struct Labels {
+  Image<std::uint16_t> labels;
+};  ///< class of what is seen; 0 = unknown
 struct Uncertainty {
   Image<float> uncertainty;
 };  ///< finite, >= 0: the channel that every map has
