@@ -14,12 +14,12 @@
 #include <vantage/eval/reachable_space.hpp>
 #include <vantage/eval/surface_coverage.hpp>
 #include <vantage/geometry/mesh_sampling.hpp>
-#include <vantage/io/recording_any.hpp>
 #include <vantage/io/scene_file.hpp>
 #include <vantage/sim/object_scene.hpp>
 #include <vantage/sim/ray_scene.hpp>
 #include <vantage/sim/room.hpp>
 
+#include "aligned_recording.hpp"
 #include "options.hpp"
 
 namespace scene {
@@ -140,7 +140,7 @@ inline std::filesystem::path default_scene() {
 inline Input load(const Options& o) {
   Input input;
   if (!o.recording.empty()) {
-    input.recording = read_recording(o.recording);
+    input.recording = read_posed(o.recording, o.range_m);
     input.name = o.recording.filename().string();
     input.note = concat("A recording of ", input.recording->size(), " frames.");
     for (const std::string& note : input.recording->notes()) input.note += " " + note;
@@ -166,7 +166,7 @@ inline Input load(const Options& o) {
     input.name = concat("room ", seed);
     input.note = "A room made from a seed.";
     if (!o.room) input.note += " No home was at hand: examples/data/fetch_scenes gets some when there is a network.";
-    input.scene = procedural_room(Rng(seed));
+    input.scene = procedural_room({}, Rng(seed)).scene;
   }
   for (const std::string& note : input.scene->notes) input.note += (input.note.empty() ? "" : " ") + note;
   look_from_inside(input, o);

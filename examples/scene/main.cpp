@@ -88,7 +88,8 @@ void run(const Options& o) {
   const Input input = load(o);
   std::cerr << input.name << ". " << input.note << '\n';
   if (input.recording)
-    look_around(o, input, ReplayWorld(input.views, [&](std::size_t i) { return input.recording->frame(i); }));
+    look_around(o, input,
+                ReplayWorld(input.views, [&](std::size_t i) { return within(input.recording->frame(i), o.range_m); }));
   else
     look_around(o, input,
                 RgbdWorld(*input.scene, Rng(o.seed).fork(1),
