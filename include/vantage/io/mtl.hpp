@@ -13,7 +13,7 @@
 #include <vantage/core/error.hpp>
 #include <vantage/io/number.hpp>
 #include <vantage/io/printable.hpp>
-#include <vantage/io/text_lines.hpp>
+#include <vantage/io/obj_lines.hpp>
 
 namespace vantage {
 
@@ -41,7 +41,7 @@ inline std::map<std::string, MtlMaterial> parse_mtl(std::string_view text, const
                                                                          {"-colorspace", 1}}};
   std::map<std::string, MtlMaterial> materials;
   MtlMaterial* current = nullptr;
-  TextLines lines(text, where);
+  ObjLines lines(text, where);
   for (std::string_view key = lines.next(); !key.empty(); key = lines.next()) {
     if (key == "newmtl") {
       current = &materials[std::string(lines.rest())];

@@ -211,7 +211,7 @@ class ObjReader {
     if (loaded_.scene.textures.empty()) loaded_.scene.uv.clear();
   }
 
-  TextLines lines_;
+  ObjLines lines_;
   SceneLimits limits_;
   std::vector<Eigen::Vector2f> uv_;
   std::vector<Corner> corners_;

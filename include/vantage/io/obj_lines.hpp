@@ -15,11 +15,11 @@
 
 namespace vantage {
 
-/// Lines of a text file with words and numbers: what OBJ and MTL have in common. A backslash joins a line with the
+/// Lines of an OBJ or MTL file, read on demand: words and numbers one after the other. A backslash joins a line with the
 /// next.
-class TextLines {
+class ObjLines {
  public:
-  TextLines(std::string_view text, std::string where) : text_(text), where_(std::move(where)) {}
+  ObjLines(std::string_view text, std::string where) : text_(text), where_(std::move(where)) {}
 
   /// The next line's first word, or "" at the end; comments and blank lines do not count.
   std::string_view next() {
