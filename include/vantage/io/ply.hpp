@@ -270,7 +270,7 @@ class PlyReader {
     const double n = value(*p.count);
     const std::size_t left = bytes_.size() - at_ + 1, least = text_ ? 2 : size_of(p.type);
     if (!(n >= 0 && n == std::floor(n))) refuse(concat("a list of ", n), "a whole number >= 0");
-    if (n > static_cast<double>(left / least))
+    if (n > 4294967295.0 || static_cast<std::size_t>(n) > left / least)
       throw Error(where_, concat("ends at byte ", bytes_.size()), concat("a list of ", n, " values at byte ", at_));
     return static_cast<std::size_t>(n);
   }

@@ -128,7 +128,7 @@ class SceneDescription {
     Eigen::Vector3d min, max;
   };
   static Corners corners(const JsonItem& box) {
-    const Corners c{box.at("min").vector<3>(), box.at("max").vector<3>()};
+    Corners c{box.at("min").vector<3>(), box.at("max").vector<3>()};
     if (!(c.max.array() > c.min.array()).all()) box.refuse("a box inside out", "min below max on every axis");
     if (!(c.max - c.min).cast<float>().allFinite() || c.min.cwiseAbs().maxCoeff() > 1e9)
       box.refuse("a box that is too large", "within 1e9 m");
