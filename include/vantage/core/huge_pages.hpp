@@ -16,11 +16,10 @@ template <class T>
 void reserve_huge(std::vector<T>& items, std::size_t n) {
   items.reserve(n);
 #ifdef __linux__
-  constexpr std::size_t page = std::size_t{1} << 12;
-  const auto begin = (reinterpret_cast<std::size_t>(items.data()) + page - 1) / page * page;
-  const auto end = (reinterpret_cast<std::size_t>(items.data()) + n * sizeof(T)) / page * page;
-  if (end > begin && end - begin >= std::size_t{1} << 21)
-    madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  constexpr std::size_t page = std::size_t{1} << 12, huge_page = std::size_t{1} << 21;
+  auto* begin = reinterpret_cast<std::byte*>(items.data());
+  const std::size_t skip = (page - reinterpret_cast<std::size_t>(begin) % page) % page, bytes = n * sizeof(T);
+  if (bytes >= huge_page + page) madvise(begin + skip, (bytes - skip) / page * page, MADV_HUGEPAGE);
 #endif
 }
 

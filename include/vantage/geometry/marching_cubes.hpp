@@ -46,7 +46,8 @@ class Neighbours {
         for (int x = -1; x <= 1; ++x) *to++ = volume.brick_at(corner + Eigen::Vector3i(x, y, z));
   }
   [[nodiscard]] std::ptrdiff_t operator()(int x, int y, int z) const {
-    return bricks_[static_cast<std::size_t>(13 + x + 3 * y + 9 * z)];
+    const int i = 13 + x + 3 * y + 9 * z;
+    return bricks_[static_cast<std::size_t>(i)];
   }
 
  private:
@@ -214,7 +215,7 @@ class Extraction {
         return moved(cells_, near, z, -by.x(), -by.y(), -by.z());
       };
       for (int z = 0; z < 8; ++z) {
-        const auto word = static_cast<std::size_t>(8 * axis + z), slice = static_cast<std::size_t>(z);
+        const auto slice = static_cast<std::size_t>(z), word = 8 * static_cast<std::size_t>(axis) + slice;
         const std::uint64_t crossed = inside_[cut.brick][slice] ^ moved(inside_, near, z, d.x(), d.y(), d.z());
         const std::uint64_t used = cells_[cut.brick][slice] | cells(z, u) | cells(z, v) | cells(z, uv);
         cut.edges[static_cast<std::size_t>(axis)][slice] = crossed & used;
@@ -303,7 +304,8 @@ class Extraction {
   }
 
   static std::size_t sample(const Eigen::Vector3i& at) {
-    return static_cast<std::size_t>((at.x() & 7) + 8 * ((at.y() & 7) + 8 * (at.z() & 7)));
+    const int i = (at.x() & 7) + 8 * ((at.y() & 7) + 8 * (at.z() & 7));
+    return static_cast<std::size_t>(i);
   }
 
   const V& volume_;

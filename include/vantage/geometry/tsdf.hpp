@@ -101,7 +101,8 @@ class Tsdf {
     if (b < 0) return std::nullopt;
     const Eigen::Vector3i in = voxel - brick_edge * corner;
     const auto brick = static_cast<std::size_t>(b);
-    const auto i = static_cast<std::size_t>(in.x() + brick_edge * (in.y() + brick_edge * in.z()));
+    const int sample = in.x() + brick_edge * (in.y() + brick_edge * in.z());
+    const auto i = static_cast<std::size_t>(sample);
     if (!(data(brick)[brick_samples + i] > 0)) return std::nullopt;
     return Voxel{value(brick, i), data(brick)[brick_samples + i],
                  has_colour() ? colour(brick, i) : Eigen::Vector3f::Zero()};
