@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -34,44 +36,37 @@ TEST(Footprint, GapsAreThoseOfRectangles) {
 }
 
 // Several sizes, grids and seeds.
-struct Case {
-  RoomConfig config;
-  std::uint64_t seed;
-};
-std::vector<Case> cases() {
-  std::vector<Case> all;
-  for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    all.push_back({{}, seed});
-    all.push_back({{.size_m = {3, 3, 2.4}, .edge_m = 1}, seed});
-    all.push_back({{.size_m = {12, 7, 3}, .pieces = 40, .edge_m = 0.5}, seed});
-    all.push_back({{.size_m = {4.5, 4, 2.5}, .rooms_x = 2, .rooms_y = 2, .edge_m = 0.5}, seed});
-  }
+std::vector<Room> rooms() {
+  std::vector<Room> all;
+  for (std::uint64_t seed = 0; seed < 3; ++seed)
+    for (const RoomConfig& config : {RoomConfig{}, RoomConfig{.size_m = {3, 3, 2.4}, .edge_m = 1},
+                                     RoomConfig{.size_m = {12, 7, 3}, .pieces = 40, .edge_m = 0.5},
+                                     RoomConfig{.size_m = {4.5, 4, 2.5}, .rooms_x = 2, .rooms_y = 2, .edge_m = 0.5}})
+      all.push_back(procedural_room(config, Rng(seed)));
   return all;
 }
 
 TEST(Room, IsAValidClosedScene) {
-  for (const Case& c : cases()) {
-    const Room room = procedural_room(c.config, Rng(c.seed));
+  for (const Room& room : rooms()) {
     room.scene.validate("test");
     ASSERT_TRUE(room.scene.start);
     const RayScene rays(room.scene);
-    Rng rng(c.seed);
+    Rng rng(1);
     for (int i = 0; i < 20000; ++i) {
       // From the start, and from where a first ray has led: along walls, out of doorways, below tables.
       Ray ray{room.scene.start->position(), direction(rng)};
       const auto hit = rays.cast(ray);
-      ASSERT_TRUE(hit) << "seed " << c.seed << ", ray " << i;
+      ASSERT_TRUE(hit) << "ray " << i;
       ray.origin += (hit->distance_m - 1e-3) * ray.direction;
       if (hit->distance_m < 0.01) continue;
       ray.direction = direction(rng);
-      ASSERT_TRUE(rays.cast(ray)) << "seed " << c.seed << ", second ray " << i;
+      ASSERT_TRUE(rays.cast(ray)) << "second ray " << i;
     }
   }
 }
 
 TEST(Room, FurnitureStaysInItsFootprintAndApart) {
-  for (const Case& c : cases()) {
-    const Room room = procedural_room(c.config, Rng(c.seed));
+  for (const Room& room : rooms()) {
     for (std::size_t i = 0; i < room.furniture.size(); ++i) {
       const Room::Placed& piece = room.furniture[i];
       const Eigen::Isometry3d to_piece = piece.footprint.pose().inverse();
@@ -94,8 +89,7 @@ TEST(Room, FurnitureStaysInItsFootprintAndApart) {
 }
 
 TEST(Room, StartIsFreeAndLooksAcrossTheRoom) {
-  for (const Case& c : cases()) {
-    const Room room = procedural_room(c.config, Rng(c.seed));
+  for (const Room& room : rooms()) {
     const RayScene rays(room.scene);
     Rng rng(1);
     for (int i = 0; i < 2000; ++i) {
@@ -111,7 +105,7 @@ TEST(Room, StartIsFreeAndLooksAcrossTheRoom) {
 TEST(Room, DefaultRoomHasManyKindsOfThings) {
   std::set<std::string> names;
   std::size_t pieces = 0;
-  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
     const Room room = procedural_room({}, Rng(seed));
     pieces += room.furniture.size();
     EXPECT_GE(room.furniture.size(), 8U);
