@@ -294,14 +294,14 @@ inline void draw_stool(SceneBuilder& b, const Palette& p, const Vec& s, Rng&) {
 /// Every kind of piece there is, in the order in which a room is furnished; sizes in metres.
 inline const std::vector<Piece>& catalogue() {
   static const std::vector<Piece> pieces = {{"sofa", {2.0, 0.9, 0.82}, true, detail::draw_sofa},
+                                            {"dining table", {1.9, 1.75, 1.0}, false, detail::draw_dining},
                                             {"coffee table", {1.9, 1.2, 0.45}, false, detail::draw_coffee_table},
                                             {"bookcase", {1.1, 0.32, 1.95}, true, detail::draw_bookcase},
-                                            {"dining table", {1.9, 1.75, 0.93}, false, detail::draw_dining},
                                             {"cabinet", {1.5, 0.45, 1.4}, true, detail::draw_cabinet},
                                             {"armchair", {0.85, 0.85, 0.8}, false, detail::draw_armchair},
                                             {"lamp", {0.45, 0.45, 1.6}, false, detail::draw_lamp},
                                             {"plant", {0.7, 0.7, 1.25}, false, detail::draw_plant},
-                                            {"desk", {1.4, 1.15, 1.2}, true, detail::draw_desk},
+                                            {"desk", {1.4, 1.15, 1.3}, true, detail::draw_desk},
                                             {"bed", {1.5, 2.1, 0.95}, true, detail::draw_bed},
                                             {"wardrobe", {1.2, 0.6, 2.05}, true, detail::draw_wardrobe},
                                             {"boxes", {0.6, 0.6, 0.9}, false, detail::draw_boxes},

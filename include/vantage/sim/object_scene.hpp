@@ -8,144 +8,170 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <vantage/core/error.hpp>
 #include <vantage/core/rng.hpp>
-#include <vantage/geometry/box.hpp>
 #include <vantage/geometry/scene.hpp>
+#include <vantage/geometry/view.hpp>
 #include <vantage/sim/footprint.hpp>
+#include <vantage/sim/procedural_texture.hpp>
+#include <vantage/sim/scene_builder.hpp>
 
 namespace vantage {
 
+/// A model to be placed: z up, any unit, anywhere.
+struct SceneObject {
+  const Scene* model;      ///< outlives the call
+  std::string class_name;  ///< of all its triangles; empty: the model's own classes
+};
+
+/// The scenes of ch. 5 (and, with one object, ch. 4): inside of a cube of 3 m, seen from a hemisphere of 2 m around the
+/// origin.
 struct ObjectSceneConfig {
-  double area_m = 3;      ///< side of the square around the origin in which objects stand, > 0
-  double size_m = 1;      ///< what an object's longest side is made; > 0
-  double margin_m = 0.1;  ///< between footprints, >= 0
-  double ground_m = 6;    ///< side of the ground plane; at least area_m
-  int attempts = 1000;    ///< at a place for each object, > 0
+  double area_m = 2.4;                        ///< side of the square on which objects stand; > 0
+  double min_size_m = 0.6, max_size_m = 1.0;  ///< an object's longest side is uniform in between; > 0
+  double margin_m = 0.05;                     ///< between footprints; >= 0
+  double ground_m = 3;                        ///< side of the textured ground; 0: none
 
   void validate() const {
     Check check("ObjectSceneConfig");
     check.positive("area_m", area_m);
-    check.positive("size_m", size_m);
+    check.positive("min_size_m", min_size_m);
+    check(std::isfinite(max_size_m) && max_size_m >= min_size_m, "max_size_m", max_size_m, "at least min_size_m");
     check.not_negative("margin_m", margin_m);
-    check(std::isfinite(ground_m) && ground_m >= area_m, "ground_m", ground_m, "finite and >= area_m");
-    check(attempts > 0, "attempts", attempts, "> 0");
+    check.not_negative("ground_m", ground_m);
     check.done();
   }
 };
 
-/// Objects on a ground plane, and where they stand.
 struct ObjectScene {
   Scene scene;
-  std::vector<Footprint> footprints;  ///< of each object
-  Box3 bounds;                        ///< of all objects, without the ground
+  std::vector<Footprint> footprints;  ///< of the objects, in the order given
 };
 
-namespace detail {
+/// Adds a model, moved and scaled, to a scene. All its triangles become `class_name`; if that is empty, they keep their
+/// own classes, found by name. Expects valid scenes. O(triangles of both, if only one has vertex colours).
+inline void append(Scene& scene, const Scene& model, const Eigen::Affine3d& place, const std::string& class_name) {
+  const std::size_t old_vertices = scene.mesh.vertices.size(), old_triangles = scene.mesh.triangles.size();
+  const std::size_t triangles = model.mesh.triangles.size(), all = old_triangles + triangles;
+  const auto first_vertex = static_cast<std::uint32_t>(old_vertices);
+  const auto first_material = static_cast<std::uint32_t>(scene.materials.size());
+  const auto first_texture = static_cast<std::uint32_t>(scene.textures.size());
+  for (const Eigen::Vector3f& v : model.mesh.vertices)
+    scene.mesh.vertices.push_back((place * v.cast<double>()).cast<float>());
+  for (const auto& [a, b, c] : model.mesh.triangles)
+    scene.mesh.triangles.push_back({a + first_vertex, b + first_vertex, c + first_vertex});
 
-// Appends a part to a whole: its triangles as `place` puts them, its materials and textures behind those there are.
-inline void append(Scene& whole, const Scene& part, const Eigen::Affine3d& place) {
-  const auto vertices = static_cast<std::uint32_t>(whole.mesh.vertices.size()),
-             materials = static_cast<std::uint32_t>(whole.materials.size()),
-             textures = static_cast<std::uint32_t>(whole.textures.size());
-  for (const Eigen::Vector3f& v : part.mesh.vertices)
-    whole.mesh.vertices.push_back((place * v.cast<double>()).cast<float>());
-  for (std::size_t i = 0; i < part.mesh.vertices.size(); ++i)
-    whole.mesh.colours.push_back(part.mesh.colours.empty() ? Eigen::Vector3f::Ones() : part.mesh.colours[i]);
-  std::vector<std::uint16_t> classes;
-  for (const std::string& name : part.classes) classes.push_back(whole.class_of(name));
-  for (std::size_t i = 0; i < part.mesh.triangles.size(); ++i) {
-    auto triangle = part.mesh.triangles[i];
-    for (std::uint32_t& v : triangle) v += vertices;
-    whole.mesh.triangles.push_back(triangle);
-    whole.uv.push_back(
-        part.uv.empty()
-            ? std::array<Eigen::Vector2f, 3>{Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero(), Eigen::Vector2f::Zero()}
-            : part.uv[i]);
-    whole.material.push_back(materials + (part.material.empty() ? 0 : part.material[i]));
-    whole.label.push_back(part.label.empty() ? classes[0] : classes[part.label[i]]);
+  if (!scene.mesh.colours.empty() || !model.mesh.colours.empty()) {  // white multiplies nothing away
+    scene.mesh.colours.resize(old_vertices, Eigen::Vector3f::Ones());
+    scene.mesh.colours.insert(scene.mesh.colours.end(), model.mesh.colours.begin(), model.mesh.colours.end());
+    scene.mesh.colours.resize(scene.mesh.vertices.size(), Eigen::Vector3f::Ones());
   }
-  for (Material m : part.materials) {
-    if (m.texture) *m.texture += textures;
-    whole.materials.push_back(std::move(m));
+  if (!scene.uv.empty() || !model.uv.empty()) {
+    const Eigen::Vector2f zero = Eigen::Vector2f::Zero();
+    scene.uv.resize(old_triangles, {zero, zero, zero});
+    scene.uv.insert(scene.uv.end(), model.uv.begin(), model.uv.end());
+    scene.uv.resize(all, {zero, zero, zero});
   }
-  whole.textures.insert(whole.textures.end(), part.textures.begin(), part.textures.end());
-  for (const std::string& note : part.notes)
-    if (std::find(whole.notes.begin(), whole.notes.end(), note) == whole.notes.end()) whole.notes.push_back(note);
+  scene.material.resize(old_triangles, 0);
+  for (std::size_t i = 0; i < triangles; ++i)
+    scene.material.push_back(first_material + (model.material.empty() ? 0 : model.material[i]));
+  for (Material m : model.materials) {
+    if (m.texture) *m.texture += first_texture;
+    // Without coordinates a texture is not drawn; the scene may have some now.
+    if (model.uv.empty()) m.texture.reset();
+    scene.materials.push_back(std::move(m));
+  }
+  scene.textures.insert(scene.textures.end(), model.textures.begin(), model.textures.end());
+
+  scene.label.resize(old_triangles, 0);
+  std::vector<std::uint16_t> class_of;  // the model's classes in the scene; unknown stays unknown
+  for (std::size_t i = 0; i < model.classes.size(); ++i)
+    class_of.push_back(!class_name.empty() ? scene.class_of(class_name)
+                       : i == 0            ? std::uint16_t{0}
+                                           : scene.class_of(model.classes[i]));
+  for (std::size_t i = 0; i < triangles; ++i) scene.label.push_back(class_of[model.label.empty() ? 0 : model.label[i]]);
 }
 
-// The ground: two triangles under a texture of pale stone, seeded.
-inline Scene ground(double side_m, Rng rng) {
-  const auto h = static_cast<float>(side_m / 2);
-  Scene s;
-  s.mesh.vertices = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
-  s.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const auto repeats = static_cast<float>(side_m);  // once a metre
-  const Eigen::Vector2f a(0, 0), b(repeats, 0), c(repeats, repeats), d(0, repeats);
-  s.uv = {{a, b, c}, {a, c, d}};
-  s.label.assign(2, s.class_of("ground"));
-  Texture t{128, 128, {}};
-  for (int i = 0; i < t.width * t.height; ++i) {
-    const auto grey = static_cast<std::uint8_t>(std::clamp(168 + 14 * rng.normal(), 100.0, 230.0));
-    t.rgb.push_back({grey, grey, static_cast<std::uint8_t>(grey - 8)});
-  }
-  s.textures.push_back(std::move(t));
-  s.materials[0] = {.name = "ground", .colour = Eigen::Vector3f::Ones(), .texture = 0};
-  return s;
-}
-
-}  // namespace detail
-
-/// Puts objects on a ground plane at random places and headings, none within the margin of another: the scenes of
-/// chapters 4 and 5. Each is scaled so that its longest side is size_m, turned about the vertical and set on z = 0; its
-/// footprint is that of its bounding box, so that what stands apart does not interpenetrate. Objects without a class of
-/// their own stay unknown; the ground has the class "ground". Throws Error if there is no object, one does not fit
-/// together (Scene::validate), or there is no room for one.
-inline ObjectScene compose_objects(std::span<const Scene> objects, const Rng& rng,
-                                   const ObjectSceneConfig& config = {}) {
+/// Objects at random places, sizes and headings on a ground plane (z = 0, class "ground") around the origin, none of
+/// whose footprints overlap: rejection, and once more from the start when there is no place left. A view on the
+/// hemisphere of 2 m is the start. Throws Error for a bad model, naming which, and if 100 starts do not suffice.
+/// O(triangles).
+inline ObjectScene object_scene(std::span<const SceneObject> objects, const Rng& rng,
+                                const ObjectSceneConfig& config = {}) {
   config.validate();
-  if (objects.empty()) throw Error("compose_objects", "no objects", "at least one");
-  ObjectScene made;
-  made.scene.materials.clear();
-  detail::append(made.scene, detail::ground(config.ground_m, rng.fork(0)), Eigen::Affine3d::Identity());
+  if (objects.empty()) throw Error("object_scene", "no object", "at least one");
+  std::vector<Box3> bounds;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    objects[i].validate(concat("compose_objects (object ", i, ")"));
-    Box3 box;  // of what triangles use
-    for (const auto& triangle : objects[i].mesh.triangles)
-      for (const std::uint32_t v : triangle) box.extend(objects[i].mesh.vertices[v].cast<double>());
-    const double longest = box.sizes().maxCoeff();
-    if (!(longest > 0)) throw Error("compose_objects", concat("object ", i, " has no extent"), "a surface");
-    const double scale = config.size_m / longest;
-    Rng draw = rng.fork(1 + i);
-    Footprint f{Eigen::Vector2d::Zero(), scale * 0.5 * box.sizes().head<2>()};
-    const auto fits = [&] {
-      for (const Eigen::Vector2d& c : f.corners())
-        if (c.cwiseAbs().maxCoeff() > config.area_m / 2) return false;
-      return std::none_of(made.footprints.begin(), made.footprints.end(),
-                          [&](const Footprint& other) { return gap_m(f, other) <= config.margin_m; });
-    };
-    int attempt = 0;
-    do {
-      if (attempt++ == config.attempts)
-        throw Error("compose_objects", concat("no room for object ", i, " of ", objects.size()),
-                    concat("fewer or smaller objects on ", config.area_m, " m x ", config.area_m, " m"));
-      f.centre = {draw.uniform(-0.5, 0.5) * config.area_m, draw.uniform(-0.5, 0.5) * config.area_m};
-      f.yaw_rad = draw.uniform(0, 2 * std::numbers::pi);
-    } while (!fits());
-    const Eigen::Vector3d foot(box.center().x(), box.center().y(), box.min().z());
-    detail::append(made.scene, objects[i],
-                   f.pose() * Eigen::Scaling(scale) * Eigen::Translation3d(Eigen::Vector3d(-foot)));
-    made.footprints.push_back(f);
-    for (const Eigen::Vector2d& c : f.corners()) {
-      made.bounds.extend(Eigen::Vector3d(c.x(), c.y(), 0));
-      made.bounds.extend(Eigen::Vector3d(c.x(), c.y(), scale * box.sizes().z()));
-    }
+    const std::string where = concat("object_scene: object ", i, objects[i].class_name.empty() ? "" : " (",
+                                     objects[i].class_name, objects[i].class_name.empty() ? "" : ")");
+    if (!objects[i].model) throw Error(where, "no model", "a scene");
+    objects[i].model->validate(where);
+    Box3& box = bounds.emplace_back();
+    for (const auto& triangle : objects[i].model->mesh.triangles)
+      for (const std::uint32_t v : triangle) box.extend(objects[i].model->mesh.vertices[v].cast<double>());
+    if (!(box.sizes().maxCoeff() > 0)) throw Error(where, "the model has no extent", "one");
   }
-  return made;
+
+  std::vector<Footprint> footprints;
+  std::vector<double> scales;
+  std::size_t most = 0;
+  for (std::uint64_t start = 0; start < 100 && footprints.size() < objects.size(); ++start) {
+    Rng draw = rng.fork(start);
+    footprints.clear();
+    scales.clear();
+    for (const Box3& box : bounds) {
+      const double scale = draw.uniform(config.min_size_m, config.max_size_m) / box.sizes().maxCoeff();
+      const Eigen::Vector2d half = scale * box.sizes().head<2>() / 2;
+      bool placed = false;
+      for (int attempt = 0; attempt < 200 && !placed; ++attempt) {
+        const double reach = config.area_m / 2;
+        const Footprint f{
+            {draw.uniform(-reach, reach), draw.uniform(-reach, reach)}, half, draw.uniform(0, 2 * std::numbers::pi)};
+        placed = f.bounds().min().minCoeff() >= -reach && f.bounds().max().maxCoeff() <= reach &&
+                 std::all_of(footprints.begin(), footprints.end(),
+                             [&](const Footprint& other) { return gap_m(f, other) > config.margin_m; });
+        if (!placed) continue;
+        footprints.push_back(f);
+        scales.push_back(scale);
+      }
+      if (!placed) break;
+    }
+    most = std::max(most, footprints.size());
+  }
+  if (footprints.size() < objects.size())
+    throw Error("object_scene",
+                concat(most, " of ", objects.size(), " objects fit on ", config.area_m, " m x ", config.area_m, " m"),
+                "a larger area_m, or fewer or smaller objects");
+
+  ObjectScene out;
+  SceneBuilder ground(0.25);
+  if (config.ground_m > 0) {
+    using procedural::Colour;
+    const double side = config.ground_m;
+    ground.label = ground.class_of("ground");
+    ground.quad(
+        {-side / 2, -side / 2, 0}, {side, 0, 0}, {0, side, 0},
+        ground.textured(
+            "ground", procedural::mottled(Colour(0.40F, 0.38F, 0.35F), Colour(0.72F, 0.70F, 0.66F), 6, rng.fork(1000)),
+            1.0));
+  }
+  out.scene = std::move(ground).take();
+  if (out.scene.materials.empty()) out.scene.materials.emplace_back();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    Eigen::Vector3d foot = bounds[i].center();
+    foot.z() = bounds[i].min().z();
+    const Eigen::Affine3d place =
+        Eigen::Affine3d(footprints[i].pose()) * Eigen::Scaling(scales[i]) * Eigen::Translation3d(-foot);
+    append(out.scene, *objects[i].model, place, objects[i].class_name);
+  }
+  out.footprints = std::move(footprints);
+  out.scene.start = look_at({2 * std::cos(0.6), 0, 2 * std::sin(0.6)}, {0, 0, 0});
+  return out;
 }
 
 }  // namespace vantage

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/scene.hpp>
 
@@ -22,20 +23,21 @@ using Colour = Eigen::Vector3f;
 
 inline constexpr int texture_size = 256;  ///< [px] a side
 
-/// The texture of colour(u, v) at the texels' centres; colours are clamped.
+/// The texture of colour(u, v) at the texels' centres; colours are clamped. Rows run concurrently.
 template <class F>
 Texture paint(F&& colour, int width = texture_size, int height = texture_size) {
   Texture t{width, height, {}};
-  t.rgb.reserve(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-  for (int row = 0; row < height; ++row)
-    for (int column = 0; column < width; ++column) {
-      const Colour c = colour((static_cast<float>(column) + 0.5F) / static_cast<float>(width),
-                              1 - (static_cast<float>(row) + 0.5F) / static_cast<float>(height));
-      std::array<std::uint8_t, 3> texel;
-      for (std::size_t k = 0; k < 3; ++k)
-        texel[k] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(c[static_cast<Eigen::Index>(k)], 0.F, 1.F)));
-      t.rgb.push_back(texel);
-    }
+  t.rgb.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  parallel_for_blocks(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row)
+      for (int column = 0; column < width; ++column) {
+        const Colour c = colour((static_cast<float>(column) + 0.5F) / static_cast<float>(width),
+                                1 - (static_cast<float>(row) + 0.5F) / static_cast<float>(height));
+        auto& texel = t.rgb[row * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+        for (Eigen::Index k = 0; k < 3; ++k)
+          texel[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(255 * std::clamp(c[k], 0.F, 1.F) + 0.5F);
+      }
+  });
   return t;
 }
 

@@ -72,17 +72,18 @@ class RgbdCamera {
   using Config = RgbdConfig;
 
   /// Throws Error as SceneRenderer does, and for a bad configuration.
-  RgbdCamera(const Scene& scene, const Rng& rng, const Config& config = {})
-      : config_((config.validate(), config)), rng_(rng), renderer_(scene, config.renderer) {}
+  explicit RgbdCamera(const Scene& scene, const Config& config = {})
+      : config_((config.validate(), config)), renderer_(scene, config.renderer) {}
 
-  /// What it sees from `view`. Throws Error for a view that is not finite or no rigid transform. O(pixels).
-  [[nodiscard]] Frame capture(const View& view) const {
+  /// What it sees from `view`, with noise from the fork of `stream` that the pose names. Throws Error for a view that
+  /// is not finite or no rigid transform. O(pixels).
+  [[nodiscard]] Frame capture(const View& view, const Rng& stream) const {
     Frame frame;
-    capture(view, frame);
+    capture(view, stream, frame);
     return frame;
   }
   /// The same into a frame whose images are used again.
-  void capture(const View& view, Frame& frame) const;
+  void capture(const View& view, const Rng& stream, Frame& frame) const;
 
   [[nodiscard]] const Config& config() const { return config_; }
   [[nodiscard]] const SceneRenderer& renderer() const { return renderer_; }
@@ -94,11 +95,10 @@ class RgbdCamera {
     return fnv1a(std::as_bytes(std::span(pose)));
   }
   Config config_;
-  Rng rng_;
   SceneRenderer renderer_;
 };
 
-inline void RgbdCamera::capture(const View& view, Frame& frame) const {
+inline void RgbdCamera::capture(const View& view, const Rng& stream, Frame& frame) const {
   Rendering<channel::Colour, channel::Depth, channel::Labels> seen;
   ColourImage& colour = seen;
   std::swap(colour, frame.colour);
@@ -111,7 +111,7 @@ inline void RgbdCamera::capture(const View& view, Frame& frame) const {
   frame.depth.swap(seen.depth);
   frame.labels.swap(seen.labels);
 
-  const PixelNoise noise(rng_.fork(bits_of(view)));
+  const PixelNoise noise(stream.fork(bits_of(view)));
   const auto low = static_cast<float>(config_.min_depth_m), high = static_cast<float>(config_.max_depth_m);
   const auto depth_noise = static_cast<float>(config_.depth_noise),
              colour_noise = static_cast<float>(config_.colour_noise);

@@ -2,60 +2,70 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/scene.hpp>
-#include <vantage/geometry/view.hpp>
 #include <vantage/sim/rgbd_camera.hpp>
 
 namespace vantage {
 
-/// A simulated RGB-D-semantic camera that is wherever it is asked to be: a World for the maps that read a Frame. The
-/// noise is a function of (stream, pose), so that a mission resumed from a checkpoint sees the same bytes. Not shared
+/// A known scene seen by a simulated RGB-D camera: a World for the maps that read a Frame.
+///
+/// The noise of a measurement is a function of the world's stream and the pose, so that a mission resumed from a
+/// checkpoint sees the same bytes. Scenes may be open: see RgbdCamera. Copies share what does not change. Not shared
 /// between threads.
 class RgbdWorld {
  public:
-  /// Throws what RgbdCamera throws.
-  RgbdWorld(const Scene& scene, const Rng& rng, const RgbdConfig& config = {})
-      : camera_(scene, rng, config), hash_(hash(scene, rng)) {}
+  using Config = RgbdConfig;
 
-  /// What the camera sees from `view`; always something, be it nothing but background. Throws Error for a view that is
-  /// not finite or no rigid transform. O(pixels log triangles).
+  /// Throws Error for a scene that is empty or does not fit together, and for a bad configuration.
+  RgbdWorld(Scene scene, const Rng& rng, const Config& config = {})
+      : scene_(std::make_shared<const Scene>(std::move(scene))), camera_(*scene_, config), rng_(rng) {
+    const auto bytes = [](const auto& items) { return fnv1a(std::as_bytes(std::span(items))); };
+    scene_hash_ = bytes(scene_->mesh.vertices) ^ 3 * bytes(scene_->mesh.triangles) ^ 5 * bytes(scene_->label);
+  }
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] const RgbdCamera& camera() const { return camera_; }
+  /// Images taken so far.
+  [[nodiscard]] std::uint64_t measurements() const { return measurements_; }
+
+  /// What the camera sees from `view`; always something. Throws Error for a view that is not finite or no rigid
+  /// transform. O(pixels log triangles).
   std::optional<Frame> observe(const View& view) {
-    std::optional<Frame> frame = camera_.capture(view);
+    Frame frame = camera_.capture(view, rng_);
     ++measurements_;
     return frame;
   }
-  [[nodiscard]] const RgbdCamera& camera() const { return camera_; }
-  /// Frames taken so far.
-  [[nodiscard]] std::uint64_t measurements() const { return measurements_; }
 
   void save(Sink& sink) const {
-    sink.put(hash_);
+    sink.put(scene_hash_);
+    for (const std::uint64_t word : rng_.state()) sink.put(word);
     sink.put(measurements_);
   }
-  /// Throws Error if it was saved over another scene, or with other noise; the world is then unchanged.
+  /// Throws Error if it was saved over another scene; the world is then unchanged.
   void load(Source& source) {
-    if (source.get<std::uint64_t>() != hash_)
-      throw Error(source.where(), "the world was saved over another scene", "the scene and seed of this mission");
-    measurements_ = source.get<std::uint64_t>();
+    const auto hash = source.get<std::uint64_t>();
+    if (hash != scene_hash_)
+      throw Error(source.where(), "the world was saved over another scene", "the scene of this mission");
+    const auto key = source.get<std::uint64_t>(), counter = source.get<std::uint64_t>();
+    const auto measurements = source.get<std::uint64_t>();
+    rng_ = Rng::restored({key, counter});
+    measurements_ = measurements;
   }
 
  private:
-  static std::uint64_t hash(const Scene& scene, const Rng& rng) {
-    Sink sink;
-    for (const std::uint64_t word : rng.state()) sink.put(word);
-    sink.put(fnv1a(std::as_bytes(std::span(scene.mesh.vertices))));
-    sink.put(fnv1a(std::as_bytes(std::span(scene.mesh.triangles))));
-    return fnv1a(sink.bytes());
-  }
+  std::shared_ptr<const Scene> scene_;
   RgbdCamera camera_;
-  std::uint64_t hash_, measurements_ = 0;
+  Rng rng_;
+  std::uint64_t measurements_ = 0, scene_hash_ = 0;
 };
 
 }  // namespace vantage

@@ -74,7 +74,8 @@ class RoomMaker {
 
   std::array<procedural::Wall, 4>& walls() { return walls_; }
 
-  void make(bool entrance, std::vector<Room::Placed>& furniture) {
+  /// `first`: which of the catalogue comes first.
+  void make(bool entrance, std::size_t first, std::vector<Room::Placed>& furniture) {
     shell_.floor_and_ceiling(area_);
     const std::uint64_t accent = rng_.index(4);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -95,7 +96,7 @@ class RoomMaker {
     taken_.push_back({start_, Eigen::Vector2d::Constant(0.5)});
     const auto& catalogue = procedural::catalogue();
     for (std::size_t i = 0; i < static_cast<std::size_t>(config_.pieces); ++i)
-      place(catalogue[i % catalogue.size()], furniture);
+      place(catalogue[(first + i) % catalogue.size()], furniture);
     for (int attempt = 0, pictures = 0; attempt < 20 && pictures < 4; ++attempt)
       if (shell_.picture(walls_[rng_.index(4)])) ++pictures;
   }
@@ -200,7 +201,7 @@ inline Room procedural_room(const RoomConfig& config, const Rng& rng) {
       doorway(3, i > 0, index - 1, true);
       doorway(2, j + 1 < config.rooms_y, index, false);
       doorway(0, j > 0, index - columns, true);
-      maker.make(index == 0, room.furniture);
+      maker.make(index == 0, index % 2 == 0 ? 0 : 8, room.furniture);  // living room, bedroom
       if (index == 0) start = maker.start();
     }
   room.scene = std::move(builder).take();

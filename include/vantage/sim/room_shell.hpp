@@ -139,7 +139,7 @@ class RoomShell {
     b_.pose = w.pose(0);
     b_.label = b_.class_of("door");
     frame(s, e, 0, door_height_m, 0.08, 0.035, true);
-    b_.box({s, 0, 0.01}, {e, 0.025, door_height_m}, door_);
+    b_.box({s, 0, 0}, {e, 0.025, door_height_m}, door_);
     for (const double low : {0.2, 1.15}) b_.box({s + 0.15, 0.025, low}, {e - 0.15, 0.032, low + 0.72}, door_);
     b_.box({s + 0.06, 0.025, 1.0}, {s + 0.08, 0.07, 1.02}, metal_);
     b_.box({s + 0.06, 0.055, 1.0}, {s + 0.18, 0.07, 1.02}, metal_);

@@ -1,86 +1,142 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
+#include <vantage/sim/object_scene.hpp>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
 #include <gtest/gtest.h>
 
-#include <vantage/sim/object_scene.hpp>
+#include <vantage/sim/rgbd_camera.hpp>
 
 namespace vantage {
 namespace {
 
-// A brick of w x d x h somewhere off the origin, of a class.
-Scene brick(float w, float d, float h, const std::string& name) {
-  Scene s;
-  for (const float z : {0.F, h})
-    for (const float y : {0.F, d})
-      for (const float x : {0.F, w}) s.mesh.vertices.emplace_back(3 + x, 2 + y, 5 + z);
-  s.mesh.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
-                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  s.label.assign(12, s.class_of(name));
+Scene block(const Eigen::Vector3d& size, const Eigen::Vector3f& colour) {
+  SceneBuilder b;
+  b.label = b.class_of("part");
+  b.box({10, 10, 10}, Eigen::Vector3d(10, 10, 10) + size, b.plain("paint", colour));
+  return std::move(b).take();
+}
+Scene textured_ball() {
+  SceneBuilder b;
+  b.ellipsoid({0, 0, -3}, {2, 1, 1}, b.textured("wood", procedural::wood({0.8F, 0.5F, 0.3F}, Rng(1)), 1));
+  Scene s = std::move(b).take();
+  s.mesh.colours.assign(s.mesh.vertices.size(), Eigen::Vector3f(1, 0.5F, 0.5F));
   return s;
 }
 
-TEST(ObjectScene, StandsOnTheGroundScaledAndApart) {
-  const std::vector<Scene> objects = {brick(2, 1, 1, "table"), brick(1, 1, 4, "lamp"), brick(1, 1, 1, "table")};
-  for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u}) {
-    const ObjectScene made = compose_objects(objects, Rng(seed), {.area_m = 4, .size_m = 0.8, .margin_m = 0.05});
-    made.scene.validate("test");
-    ASSERT_EQ(made.footprints.size(), 3u);
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < i; ++j) EXPECT_GT(gap_m(made.footprints[i], made.footprints[j]), 0.05);
-    EXPECT_EQ(made.scene.classes, (std::vector<std::string>{"unknown", "ground", "table", "lamp"}));
-    // Two triangles of ground, then twelve of each object.
-    const double height_m[] = {0.4, 0.8, 0.8};
-    for (std::size_t i = 0; i < 3; ++i) {
-      Box3 box;
-      for (std::size_t t = 2 + 12 * i; t < 14 + 12 * i; ++t) {
-        EXPECT_EQ(made.scene.label[t], i == 1 ? 3 : 2);
-        for (const Eigen::Vector3d& c : made.scene.mesh.corners(t)) {
-          box.extend(c);
-          const Eigen::Vector2d in = made.footprints[i].axes().transpose() * (c.head<2>() - made.footprints[i].centre);
-          EXPECT_TRUE((in.cwiseAbs().array() <= made.footprints[i].half.array() + 1e-6).all());
-        }
-      }
-      EXPECT_NEAR(box.min().z(), 0, 1e-6);
-      EXPECT_NEAR(box.max().z(), height_m[i], 1e-6);
-      EXPECT_LE(box.max().head<2>().cwiseAbs().maxCoeff(), 2 + 1e-6);
-      EXPECT_TRUE(made.bounds.contains(Box3(box.min().array() + 1e-6, box.max().array() - 1e-6)));
+TEST(ObjectScene, PlacesObjectsApartOnTheGround) {
+  const Scene a = block({4, 2, 1}, {1, 0, 0}), b = block({1, 1, 3}, {0, 1, 0}), c = textured_ball();
+  const std::vector<SceneObject> objects = {{&a, "car"}, {&b, "chair"}, {&c, "camera"}, {&a, "car"}, {&b, ""}};
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const ObjectScene scene = object_scene(objects, Rng(seed));
+    scene.scene.validate("test");
+    ASSERT_EQ(scene.footprints.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) {
+      const Box2 box = scene.footprints[i].bounds();
+      EXPECT_LE(box.max().maxCoeff(), 1.2);
+      EXPECT_GE(box.min().minCoeff(), -1.2);
+      for (std::size_t j = 0; j < i; ++j) EXPECT_GT(gap_m(scene.footprints[i], scene.footprints[j]), 0.05);
     }
-    EXPECT_NEAR(made.bounds.max().z(), 0.8, 1e-9);
+    EXPECT_EQ(scene.scene.classes, (std::vector<std::string>{"unknown", "ground", "car", "chair", "camera", "part"}));
+    // Every triangle of an object stands on the ground inside of its footprint, and has its class.
+    std::size_t t = 0;
+    while (scene.scene.label[t] == 1) ++t;
+    const std::uint16_t expected[] = {2, 3, 4, 2, 5};
+    const Scene* models[] = {&a, &b, &c, &a, &b};
+    for (std::size_t i = 0; i < 5; ++i) {
+      Box3 local;
+      const Eigen::Isometry3d inverse = scene.footprints[i].pose().inverse();
+      for (std::size_t k = 0; k < models[i]->mesh.triangles.size(); ++k, ++t) {
+        EXPECT_EQ(scene.scene.label[t], expected[i]);
+        for (const Eigen::Vector3d& corner : scene.scene.mesh.corners(t)) local.extend(inverse * corner);
+      }
+      EXPECT_NEAR(local.min().z(), 0, 1e-5);
+      EXPECT_NEAR(local.max().x(), scene.footprints[i].half.x(), 1e-5);
+      EXPECT_NEAR(local.min().y(), -scene.footprints[i].half.y(), 1e-5);
+      const double longest = local.sizes().maxCoeff();
+      EXPECT_GE(longest, 0.6 - 1e-5);
+      EXPECT_LE(longest, 1.0 + 1e-5);
+      const Eigen::Vector3d size = models[i]->mesh.bounds().sizes();
+      EXPECT_TRUE((local.sizes() / longest).isApprox(size / size.maxCoeff(), 1e-4));  // scaled alike in all directions
+    }
+    EXPECT_EQ(t, scene.scene.mesh.triangles.size());
   }
 }
 
-TEST(ObjectScene, TheSameSeedIsTheSameScene) {
-  const std::vector<Scene> objects = {brick(2, 1, 1, "a"), brick(1, 1, 2, "b")};
-  const ObjectScene a = compose_objects(objects, Rng(7)), b = compose_objects(objects, Rng(7)),
-                    c = compose_objects(objects, Rng(8));
-  EXPECT_EQ(a.scene.mesh.vertices, b.scene.mesh.vertices);
-  EXPECT_NE(a.scene.mesh.vertices, c.scene.mesh.vertices);
+TEST(ObjectScene, KeepsTexturesMaterialsAndVertexColours) {
+  const Scene red = block({1, 1, 1}, {1, 0, 0}), ball = textured_ball();
+  const std::vector<SceneObject> objects = {{&red, "red"}, {&ball, "ball"}};
+  const ObjectScene made = object_scene(objects, Rng(3));
+  RgbdConfig config = RgbdConfig::semantic();
+  config.renderer.lighting = Lighting::none();
+  const RgbdCamera camera(made.scene, config), alone(ball, config);
+  Eigen::Vector3f mean[4] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  float count[4] = {};
+  const Frame frame = camera.capture(look_at({0.1, 0, 2.5}, {0, 0, 0}), Rng(1));
+  for (Eigen::Index k = 0; k < frame.labels.size(); ++k) {
+    const auto label = frame.labels.data()[k];
+    ASSERT_LT(label, 4);
+    mean[label] += Eigen::Vector3f(frame.colour.r.data()[k], frame.colour.g.data()[k], frame.colour.b.data()[k]);
+    ++count[label];
+  }
+  for (int i = 1; i < 4; ++i) {
+    EXPECT_GT(count[i], 300);
+    mean[i] /= count[i];
+  }
+  EXPECT_TRUE(mean[2].isApprox(Eigen::Vector3f(1, 0, 0)));           // plain, and its colours kept white
+  EXPECT_NEAR(mean[1].x(), mean[1].y(), 0.05);                       // grey ground
+  EXPECT_NEAR(mean[3].y() / mean[3].x(), 0.5F * 0.5F / 0.8F, 0.05);  // wood times vertex colour
 }
 
-TEST(ObjectScene, KeepsMaterialsAndTexturesOfEach) {
-  Scene painted = brick(1, 1, 1, "x");
-  painted.materials = {{.name = "red", .colour = {1, 0, 0}}, {.name = "wood", .colour = {1, 1, 1}, .texture = 0}};
-  painted.textures.push_back({1, 1, {{10, 20, 30}}});
-  painted.material.assign(12, 1);
-  painted.uv.assign(12, {Eigen::Vector2f(0, 0), Eigen::Vector2f(1, 0), Eigen::Vector2f(0, 1)});
-  const ObjectScene made = compose_objects(std::vector<Scene>{brick(1, 1, 1, "y"), painted}, Rng(1));
-  const Material& m = made.scene.materials[made.scene.material.back()];
-  EXPECT_EQ(m.name, "wood");
-  ASSERT_TRUE(m.texture);
-  EXPECT_EQ(made.scene.textures[*m.texture].rgb[0], (std::array<std::uint8_t, 3>{10, 20, 30}));
-  EXPECT_EQ(made.scene.uv.back(), painted.uv.back());
-  EXPECT_EQ(made.scene.materials[made.scene.material[2]].name, "default");
+TEST(ObjectScene, SeedsRepeatAndDiffer) {
+  const Scene a = block({2, 1, 1}, {1, 0, 0});
+  const std::vector<SceneObject> objects = {{&a, "a"}, {&a, "b"}};
+  const auto centre = [&](std::uint64_t seed) { return object_scene(objects, Rng(seed)).footprints[1].centre; };
+  EXPECT_EQ(centre(1), centre(1));
+  EXPECT_NE(centre(1), centre(2));
 }
 
-TEST(ObjectScene, RefusesWhatDoesNotFit) {
-  const std::vector<Scene> many(30, brick(1, 1, 1, "a"));
-  EXPECT_THROW((void)compose_objects(many, Rng(1), {.area_m = 3, .attempts = 50}), Error);
-  EXPECT_THROW((void)compose_objects({}, Rng(1)), Error);
-  EXPECT_THROW((void)compose_objects(std::vector<Scene>{Scene{}}, Rng(1)), Error);
-  EXPECT_THROW((void)compose_objects(many, Rng(1), {.area_m = -1}), Error);
-  Scene point = brick(1, 1, 1, "a");
-  for (Eigen::Vector3f& v : point.mesh.vertices) v.setZero();
-  EXPECT_THROW((void)compose_objects(std::vector<Scene>{point}, Rng(1)), Error);
+TEST(ObjectScene, OneObjectWithoutGround) {
+  const Scene a = block({2, 1, 1}, {1, 0, 0});
+  const std::vector<SceneObject> objects = {{&a, "a"}};
+  const ObjectScene made = object_scene(objects, Rng(1), {.ground_m = 0});
+  made.scene.validate("test");
+  EXPECT_EQ(made.scene.mesh.triangles.size(), 12U);
+  const Frame frame = RgbdCamera(made.scene, RgbdConfig::semantic()).capture(*made.scene.start, Rng(1));
+  EXPECT_GT((frame.labels == 0).count(), 1000);  // open: background
+  EXPECT_GT((frame.labels == 1).count(), 1000);
+}
+
+std::string refusal(const std::vector<SceneObject>& objects, const ObjectSceneConfig& config = {}) {
+  try {
+    object_scene(objects, Rng(1), config);
+  } catch (const Error& e) { return e.what(); }
+  return "accepted";
+}
+
+TEST(ObjectScene, RefusesWhatCannotBePlaced) {
+  const auto names = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+  const Scene a = block({2, 1, 1}, {1, 0, 0}), empty;
+  Scene broken = a, flat = a;
+  broken.mesh.vertices[3].x() = std::numeric_limits<float>::quiet_NaN();
+  for (Eigen::Vector3f& v : flat.mesh.vertices) v.setZero();
+  EXPECT_EQ(refusal({{&a, "a"}}), "accepted");
+  EXPECT_TRUE(names(refusal(std::vector<SceneObject>(40, {&a, "a"})), "of 40 objects fit"));
+  EXPECT_TRUE(names(refusal({{&a, "a"}}, {.area_m = 0.5}), "0 of 1 objects fit"));
+  EXPECT_TRUE(names(refusal({}), "no object"));
+  EXPECT_TRUE(names(refusal({{&a, "a"}, {&empty, "b"}}), "object 1 (b): the scene has no triangle"))
+      << refusal({{&empty, "b"}});
+  EXPECT_TRUE(names(refusal({{&broken, ""}}), "object 0: vertex 3")) << refusal({{&broken, ""}});
+  EXPECT_TRUE(names(refusal({{&flat, "c"}}), "no extent"));
+  EXPECT_TRUE(names(refusal({{nullptr, "c"}}), "no model"));
+  EXPECT_TRUE(names(refusal({{&a, "a"}}, {.min_size_m = 2, .max_size_m = 1}), "max_size_m"));
+  EXPECT_TRUE(names(refusal({{&a, "a"}}, {.margin_m = -1}), "margin_m"));
+  EXPECT_TRUE(names(refusal({{&a, "a"}}, {.area_m = std::nan("")}), "area_m"));
 }
 
 }  // namespace

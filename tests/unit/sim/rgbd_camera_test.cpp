@@ -43,8 +43,8 @@ bool same(const Frame& a, const Frame& b) {
 }
 
 TEST(RgbdCamera, WithoutNoiseShowsWhatIsThere) {
-  const RgbdCamera camera(floor_of(100), Rng(1), exact());
-  const Frame frame = camera.capture(nadir(1, 2, 3));
+  const RgbdCamera camera(floor_of(100), exact());
+  const Frame frame = camera.capture(nadir(1, 2, 3), Rng(1));
   frame.validate("test");
   EXPECT_TRUE(frame.view.T_W_C.isApprox(nadir(1, 2, 3).T_W_C));
   EXPECT_EQ(frame.camera.width, 160);
@@ -56,9 +56,9 @@ TEST(RgbdCamera, WithoutNoiseShowsWhatIsThere) {
 TEST(RgbdCamera, DepthNoiseGrowsWithDepth) {
   RgbdConfig config = exact();
   config.depth_noise = 0.02;
-  const RgbdCamera camera(floor_of(100), Rng(1), config);
+  const RgbdCamera camera(floor_of(100), config);
   for (const double height : {1.0, 4.0}) {
-    const Frame frame = camera.capture(nadir(0, 0, height));
+    const Frame frame = camera.capture(nadir(0, 0, height), Rng(1));
     const Eigen::ArrayXXd error = frame.depth.cast<double>() - height;
     const auto n = static_cast<double>(error.size());
     const double sigma = 0.02 * height;
@@ -71,7 +71,7 @@ TEST(RgbdCamera, DepthNoiseGrowsWithDepth) {
 TEST(RgbdCamera, ColourNoiseIsClampedAndIndependentBetweenChannels) {
   RgbdConfig config = exact();
   config.colour_noise = 0.05;
-  const Frame grey = RgbdCamera(floor_of(100), Rng(1), config).capture(nadir(0, 0, 2));
+  const Frame grey = RgbdCamera(floor_of(100), config).capture(nadir(0, 0, 2), Rng(1));
   const Eigen::ArrayXXd r = grey.colour.r.cast<double>() - 0.5, g = grey.colour.g.cast<double>() - 0.5,
                         b = grey.colour.b.cast<double>() - 0.5;
   const auto n = static_cast<double>(r.size());
@@ -83,7 +83,7 @@ TEST(RgbdCamera, ColourNoiseIsClampedAndIndependentBetweenChannels) {
   EXPECT_NEAR((g * b).mean(), 0, 5 * 0.0025 / std::sqrt(n));
   EXPECT_TRUE((grey.depth - 2).abs().maxCoeff() < 1e-5F);
 
-  const Frame white = RgbdCamera(floor_of(100, 1), Rng(1), config).capture(nadir(0, 0, 2));
+  const Frame white = RgbdCamera(floor_of(100, 1), config).capture(nadir(0, 0, 2), Rng(1));
   white.validate("test");
   EXPECT_NEAR((white.colour.r == 1.F).cast<double>().mean(), 0.5, 0.03);
 }
@@ -92,16 +92,16 @@ TEST(RgbdCamera, ReadingsOutOfRangeHaveNoValue) {
   const Camera camera = Camera::from_fov(160, 120, deg(60));
   RgbdConfig config = exact(5);
   config.min_depth_m = 1;
-  const RgbdCamera sensor(floor_of(100), Rng(1), config);
-  EXPECT_TRUE(sensor.capture(nadir(0, 0, 5.001)).depth.isNaN().all());
-  EXPECT_TRUE((sensor.capture(nadir(0, 0, 4.999)).depth > 4.9F).all());
-  EXPECT_TRUE((sensor.capture(nadir(0, 0, 1.001)).depth > 1.F).all());
-  EXPECT_TRUE(sensor.capture(nadir(0, 0, 0.999)).depth.isNaN().all());
-  const Frame far = sensor.capture(nadir(0, 0, 9));
+  const RgbdCamera sensor(floor_of(100), config);
+  EXPECT_TRUE(sensor.capture(nadir(0, 0, 5.001), Rng(1)).depth.isNaN().all());
+  EXPECT_TRUE((sensor.capture(nadir(0, 0, 4.999), Rng(1)).depth > 4.9F).all());
+  EXPECT_TRUE((sensor.capture(nadir(0, 0, 1.001), Rng(1)).depth > 1.F).all());
+  EXPECT_TRUE(sensor.capture(nadir(0, 0, 0.999), Rng(1)).depth.isNaN().all());
+  const Frame far = sensor.capture(nadir(0, 0, 9), Rng(1));
   EXPECT_TRUE((far.labels == 1).all() && (far.colour.g == 0.5F).all());  // seen, though not measured
 
   config.depth_noise = 0.01;  // at the limit a half of the readings is above; none that is may pass
-  const Frame limit = RgbdCamera(floor_of(100), Rng(1), config).capture(nadir(0, 0, 5));
+  const Frame limit = RgbdCamera(floor_of(100), config).capture(nadir(0, 0, 5), Rng(1));
   limit.validate("test");
   EXPECT_NEAR(limit.depth.isNaN().cast<double>().mean(), 0.5, 0.02);
   EXPECT_TRUE((limit.depth.isNaN() || limit.depth <= 5.F).all());
@@ -112,38 +112,37 @@ TEST(RgbdCamera, OpenScenesHaveABackground) {
   RgbdConfig config;
   config.camera = Camera::from_fov(64, 64, deg(90));
   config.renderer.background = {0.2F, 0.3F, 0.4F};
-  const Frame frame = RgbdCamera(floor_of(1), Rng(1), config).capture(nadir(0, 0, 2));
+  const Frame frame = RgbdCamera(floor_of(1), config).capture(nadir(0, 0, 2), Rng(1));
   frame.validate("test");
   EXPECT_EQ(frame.labels(0, 0), 0);
   EXPECT_TRUE(std::isnan(frame.depth(0, 0)));
   EXPECT_EQ(frame.colour.g(0, 0), 0.3F);
   EXPECT_EQ(frame.labels(32, 32), 1);
-  const Frame sky = RgbdCamera(floor_of(1), Rng(1), config).capture(look_at({0, 0, 2}, {0, 0, 3}));
+  const Frame sky = RgbdCamera(floor_of(1), config).capture(look_at({0, 0, 2}, {0, 0, 3}), Rng(1));
   EXPECT_TRUE(sky.depth.isNaN().all() && (sky.labels == 0).all());
 }
 
 TEST(RgbdCamera, NoiseIsAFunctionOfSeedAndView) {
   RgbdConfig config = exact();
   config.depth_noise = config.colour_noise = 0.01;
-  const RgbdCamera camera(floor_of(100), Rng(1), config), twin(floor_of(100), Rng(1), config),
-      other(floor_of(100), Rng(2), config);
+  const RgbdCamera camera(floor_of(100), config), twin(floor_of(100), config);
   const View here = nadir(0, 0, 2), there = nadir(0, 1e-12, 2);
-  const Frame first = camera.capture(here);
-  EXPECT_FALSE(same(camera.capture(there).depth, first.depth));
-  EXPECT_TRUE(same(camera.capture(here), first));  // whatever was looked at between
-  EXPECT_TRUE(same(twin.capture(here), first));
-  EXPECT_FALSE(same(other.capture(here).depth, first.depth));
+  const Frame first = camera.capture(here, Rng(1));
+  EXPECT_FALSE(same(camera.capture(there, Rng(1)).depth, first.depth));
+  EXPECT_TRUE(same(camera.capture(here, Rng(1)), first));  // whatever was looked at between
+  EXPECT_TRUE(same(twin.capture(here, Rng(1)), first));
+  EXPECT_FALSE(same(camera.capture(here, Rng(2)).depth, first.depth));
   View minus_zero = here;
   minus_zero.T_W_C.translation().x() = -0.0;
-  EXPECT_TRUE(same(camera.capture(minus_zero), first));
+  EXPECT_TRUE(same(camera.capture(minus_zero, Rng(1)), first));
   Frame used;  // of another size before
   used.depth.resize(3, 3);
-  camera.capture(here, used);
+  camera.capture(here, Rng(1), used);
   EXPECT_TRUE(same(used, first));
   const tbb::global_control eight(tbb::global_control::max_allowed_parallelism, 8);
   for (const int threads : {1, 2, 8}) {
     tbb::task_arena arena(threads);
-    EXPECT_TRUE(same(arena.execute([&] { return camera.capture(here); }), first));
+    EXPECT_TRUE(same(arena.execute([&] { return camera.capture(here, Rng(1)); }), first));
   }
 }
 
@@ -156,14 +155,14 @@ TEST(RgbdCamera, PresetsAreWhatTheChaptersSay) {
   EXPECT_EQ(RgbdConfig::image_based().camera.fx, 400);
   EXPECT_NEAR(RgbdConfig::semantic().camera.fx, 366.1, 0.05);
   for (const RgbdConfig& config : {RgbdConfig{}, RgbdConfig::image_based(), RgbdConfig::semantic()})
-    RgbdCamera(floor_of(100), Rng(1), config).capture(nadir(0, 0, 2)).validate("test");
+    RgbdCamera(floor_of(100), config).capture(nadir(0, 0, 2), Rng(1)).validate("test");
 }
 
 TEST(RgbdCamera, RefusesBadInput) {
   const Scene scene = floor_of(1);
   const auto refused = [&](const RgbdConfig& config, const std::string& name) {
     try {
-      const RgbdCamera camera(scene, Rng(1), config);
+      const RgbdCamera camera(scene, config);
     } catch (const Error& e) { return std::string(e.what()).find(name) != std::string::npos; }
     return false;
   };
@@ -174,9 +173,9 @@ TEST(RgbdCamera, RefusesBadInput) {
   EXPECT_TRUE(refused({.min_depth_m = 6}, "max_depth_m"));
   EXPECT_TRUE(refused({.max_depth_m = nan}, "max_depth_m"));
   EXPECT_TRUE(refused({.colour_noise = infinity}, "colour_noise"));
-  EXPECT_THROW(RgbdCamera(Scene{}, Rng(1)), Error);
-  const RgbdCamera camera(scene, Rng(1));
-  EXPECT_THROW((void)camera.capture(nadir(nan, 0, 1)), Error);
+  EXPECT_THROW(RgbdCamera(Scene{}), Error);
+  const RgbdCamera camera(scene);
+  EXPECT_THROW((void)camera.capture(nadir(nan, 0, 1), Rng(1)), Error);
 }
 
 }  // namespace
