@@ -58,8 +58,6 @@ struct RaySceneConfig {
   bool watertight = true;
   /// Spends twice the time on a hierarchy that is up to a tenth faster. Has no effect on watertight scenes.
   bool high_quality = false;
-  /// Options for Embree's device, as in its manual ("isa=avx2"); normally none. Embree checks few of them.
-  std::string device = {};
 };
 
 /// Triangles that rays can be shot at: Embree's bounding volume hierarchy (Wald et al., "Embree: a kernel framework for
@@ -111,9 +109,9 @@ inline RayScene::RayScene(const TriangleMesh& mesh, const Config& config) : tria
   if (bounds_.min().cwiseAbs().cwiseMax(bounds_.max().cwiseAbs()).maxCoeff() > 1e9)
     throw Error("RayScene", "a vertex lies farther than 1e9 m from the origin", "a scene in metres");
 
+  // No options are passed on: once it has refused one, Embree 3.13.5 never returns from the next rtcNewDevice.
   std::string complaint;
-  const Owned<RTCDevice> device(rtcNewDevice(config.device.c_str()),
-                                [](RTCDevice d) { d ? rtcReleaseDevice(d) : void(); });
+  const Owned<RTCDevice> device(rtcNewDevice(nullptr), [](RTCDevice d) { d ? rtcReleaseDevice(d) : void(); });
   check(device.get(), "(no device)");
   rtcSetDeviceErrorFunction(device.get(), complain, &complaint);
   const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_TRIANGLE), rtcReleaseGeometry);

@@ -165,12 +165,11 @@ TEST(RayScene, NoRayLeavesAClosedSurfaceAlongItsEdges) {
   }
 }
 
-TEST(RayScene, NarrowerVectorsAndOtherHierarchiesSeeTheSame) {
+TEST(RayScene, OtherHierarchiesSeeTheSame) {
   const TriangleMesh mesh = ball(8);
   const RayScene scene(mesh);
   for (const RaySceneConfig& config :
-       {RaySceneConfig{.device = "isa=avx2"}, RaySceneConfig{.device = "isa=sse4.2"},
-        RaySceneConfig{.watertight = false}, RaySceneConfig{.watertight = false, .high_quality = true}}) {
+       {RaySceneConfig{.watertight = false}, RaySceneConfig{.watertight = false, .high_quality = true}}) {
     const RayScene other(mesh, config);
     Rng rng(3);
     for (int i = 0; i < 1000; ++i) {
@@ -203,9 +202,6 @@ TEST(RayScene, RefusesMeshesThatEmbreeWouldTakeSilently) {
   EXPECT_NE(refusal(mesh).find("triangle 3 uses vertex 8"), std::string::npos) << refusal(mesh);
   mesh.triangles.clear();
   EXPECT_NE(refusal(mesh).find("no triangle"), std::string::npos) << refusal(mesh);
-  for (const char* device : {"tri_accel=nonsense", "tessellation_cache_size=-1"})  // later, and at once
-    EXPECT_NE(refusal(two_squares(), {.device = device}).find("Embree's error"), std::string::npos)
-        << refusal(two_squares(), {.device = device});
 }
 
 TEST(RayScene, RefusesRaysThatWouldAbortEmbree) {
