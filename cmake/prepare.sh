@@ -8,7 +8,7 @@ script=$(cd "$(dirname "$0")" && pwd)/${0##*/}
 script=${script#"$root"/}
 
 packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libembree-dev libqhull-dev libnanoflann-dev
-          libpng-dev libstb-dev libtinyobjloader-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
+          libpng-dev zlib1g-dev libstb-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
           libgtest-dev libbenchmark-dev libopenblas-dev"
 
 # Ends the script with one clear line.

@@ -26,11 +26,11 @@ target_compile_options(vantage_native INTERFACE -march=native -O3)
 
 if(VANTAGE_WITH_IO)
   find_package(PNG REQUIRED)
+  find_package(ZLIB REQUIRED)
   find_package(nlohmann_json 3.10 REQUIRED)
-  find_package(tinyobjloader REQUIRED)
   find_package(TinyGLTF REQUIRED)
   find_path(VANTAGE_STB stb/stb_image.h REQUIRED) # header-only, and no package of CMake's
-  vantage_target(vantage_io vantage PNG::PNG nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader TinyGLTF::TinyGLTF)
+  vantage_target(vantage_io vantage PNG::PNG ZLIB::ZLIB nlohmann_json::nlohmann_json TinyGLTF::TinyGLTF)
 endif()
 
 if(VANTAGE_WITH_SIM)

@@ -19,7 +19,8 @@ class Averages {
   void integrate(const FieldImage& z, Rng&) {
     if (!z.footprint.min().allFinite() || !z.footprint.max().allFinite() || z.values.isInf().any())
       throw Error("Averages", "an infinite image", "finite numbers");  // before anything changes
-    const Eigen::Array2d pixel_m = z.footprint.sizes().array() / Eigen::Array2d(double(z.values.cols()), double(z.values.rows()));
+    const Eigen::Array2d pixel_m =
+        z.footprint.sizes().array() / Eigen::Array2d(double(z.values.cols()), double(z.values.rows()));
     for (int row = 0; row < z.values.rows(); ++row)
       for (int column = 0; column < z.values.cols(); ++column) {
         const Eigen::Array2d centre(column + 0.5, row + 0.5);

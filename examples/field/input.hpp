@@ -24,14 +24,17 @@ struct Input {
   std::string name, note;             ///< note: how it came to its place, for the report
 };
 
-/// A rectangle of the field's proportions whose longer side is `side_m`: a grid fills it, nothing is masked for its shape.
+/// A rectangle of the field's proportions whose longer side is `side_m`: a grid fills it, nothing is masked for its
+/// shape.
 inline Box2 flight_area(const FieldSamples& data, double side_m) {
   Box2 extent;
   for (const FieldSample& s : data.samples)
     if (s.position.allFinite()) extent.extend(s.position);
   Eigen::Vector2d size = extent.isEmpty() ? Eigen::Vector2d::Ones() : Eigen::Vector2d(extent.sizes());
   const double longer = size.maxCoeff();
-  size = (longer > 0 && std::isfinite(longer) ? Eigen::Vector2d(size / longer) : Eigen::Vector2d::Ones()).cwiseMax(0.05) * side_m;
+  size =
+      (longer > 0 && std::isfinite(longer) ? Eigen::Vector2d(size / longer) : Eigen::Vector2d::Ones()).cwiseMax(0.05) *
+      side_m;
   return {Eigen::Vector2d::Zero(), size};
 }
 
@@ -39,15 +42,20 @@ inline Input sampled(const std::filesystem::path& file, const Options& o) {
   const FieldSamples data = read_field(file, o.column);
   SampledField f = sampled_field(data, Rng(o.seed).fork(2), {.area_m = flight_area(data, o.side_m)});
   const std::size_t held = f.held_out.size();
-  std::string note = f.gridded ? "A grid of samples, interpolated bilinearly."
-                               : concat("Scattered samples, interpolated linearly between neighbours; the error is measured at ", held, " samples that were held out.");
-  if (f.truth.valid_pixels() < f.truth.rows() * f.truth.columns()) note += " Where there are no data the field is masked.";
+  std::string note =
+      f.gridded ? "A grid of samples, interpolated bilinearly."
+                : concat("Scattered samples, interpolated linearly between neighbours; the error is measured at ", held,
+                         " samples that were held out.");
+  if (f.truth.valid_pixels() < f.truth.rows() * f.truth.columns())
+    note += " Where there are no data the field is masked.";
   return {std::move(f.truth), std::move(f.held_out), file.stem().string(), std::move(note)};
 }
 
 inline Input random(std::uint64_t seed, const Options& o) {
-  return {random_field(Rng(seed), {.area_m = Box2(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(o.side_m))}), {},
-          "random_field_" + std::to_string(seed), "A Gaussian random field, scaled to [0, 1]."};
+  return {random_field(Rng(seed), {.area_m = Box2(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(o.side_m))}),
+          {},
+          "random_field_" + std::to_string(seed),
+          "A Gaussian random field, scaled to [0, 1]."};
 }
 
 /// Where examples/data/fetch_fields puts the real fields.

@@ -16,8 +16,10 @@ void run(const field::Options& o) {
   vantage::make_folder(o.out);
   const field::Input input = field::load(o);
   std::cerr << field::words(input.name) << ". " << input.note << '\n';
-  if (o.preset == vantage::PresetKind::thesis) field::Mission<vantage::preset::thesis>(o, input).run();
-  else field::Mission<vantage::preset::reference>(o, input).run();
+  if (o.preset == vantage::PresetKind::thesis)
+    field::Mission<vantage::preset::thesis>(o, input).run();
+  else
+    field::Mission<vantage::preset::reference>(o, input).run();
 }
 
 }  // namespace
@@ -27,7 +29,6 @@ int main(int argc, char** argv) {
   field::Options options;
   options.command.assign(argv, argv + argc);
   field::add_options(app, options);
-  return vantage::run_program(app, argc, argv, std::cout, std::cerr, [&] {
-    vantage::with_threads(options.threads, [&] { run(options); });
-  });
+  return vantage::run_program(app, argc, argv, std::cout, std::cerr,
+                              [&] { vantage::with_threads(options.threads, [&] { run(options); }); });
 }

@@ -36,7 +36,9 @@
 namespace field {
 
 template <class Preset>
-using WorldNoise = std::conditional_t<std::is_same_v<typename FieldPreset<Preset>::HeightNoise, VarianceGrowsWithHeight>, VarianceByHeight, DeviationByHeight>;
+using WorldNoise =
+    std::conditional_t<std::is_same_v<typename FieldPreset<Preset>::HeightNoise, VarianceGrowsWithHeight>,
+                       VarianceByHeight, DeviationByHeight>;
 
 /// How good a map is, in the field's unit.
 struct Judge {
@@ -48,7 +50,8 @@ struct Judge {
   std::vector<Metric> operator()(const M& map) const {
     const FieldMetrics m = field_metrics(map, input.truth, *this);
     const double rmse = input.held_out.empty() ? m.rmse : rmse_at(map, input.held_out);
-    return {{"rmse", rmse}, {"rmse_hotspots", m.rmse_hotspots}, {"iou", m.iou}, {"cells", static_cast<double>(m.cells)}};
+    return {
+        {"rmse", rmse}, {"rmse_hotspots", m.rmse_hotspots}, {"iou", m.iou}, {"cells", static_cast<double>(m.cells)}};
   }
 };
 
@@ -56,7 +59,10 @@ struct Judge {
 inline nlohmann::ordered_json config(const Options& o, const Input& input, double threshold, double alpha) {
   const ScalarField& truth = input.truth;
   const auto budget = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(); };
-  nlohmann::ordered_json c = {{"mission", "field"}, {"field", input.name}, {"quantity", truth.quantity().name}, {"unit", truth.quantity().unit}};
+  nlohmann::ordered_json c = {{"mission", "field"},
+                              {"field", input.name},
+                              {"quantity", truth.quantity().name},
+                              {"unit", truth.quantity().unit}};
   c["range"] = {truth.minimum(), truth.maximum()};
   c["area_m"] = {truth.area().sizes().x(), truth.area().sizes().y()};
   c["method"] = o.method;
@@ -82,15 +88,24 @@ class Mission {
 
   void run() const {
     const std::string& m = o_.method;
-    if (m == "ours") measure<Ours<Preset>>();
-    else if (m == "latent") measure<Ours<Preset, Latent<>>>();
-    else if (m == "fr_gpf") measure<FrGpf<Preset>>();
-    else if (m == "fr_idp") measure<FrIdp<Preset>>();
-    else if (m == "ar_idp") measure<ArIdp<Preset>>();
-    else if (m == "ar_gpr_ik") follow_lawnmower(map<ArGprIk<Preset>>(FieldTask::mapping));
-    else if (m == "ar_bcm") follow_lawnmower(map<ArBcm<Preset>>(FieldTask::mapping));
-    else if (m == "lawnmower") follow_lawnmower(map<Ours<Preset>>(FieldTask::mapping));
-    else fly(NbvLoop{map<Ours<Preset>>(FieldTask::planning), Uninformed{}, Lattice{lattice()}, ArgMax{}});
+    if (m == "ours")
+      measure<Ours<Preset>>();
+    else if (m == "latent")
+      measure<Ours<Preset, Latent<>>>();
+    else if (m == "fr_gpf")
+      measure<FrGpf<Preset>>();
+    else if (m == "fr_idp")
+      measure<FrIdp<Preset>>();
+    else if (m == "ar_idp")
+      measure<ArIdp<Preset>>();
+    else if (m == "ar_gpr_ik")
+      follow_lawnmower(map<ArGprIk<Preset>>(FieldTask::mapping));
+    else if (m == "ar_bcm")
+      follow_lawnmower(map<ArBcm<Preset>>(FieldTask::mapping));
+    else if (m == "lawnmower")
+      follow_lawnmower(map<Ours<Preset>>(FieldTask::mapping));
+    else
+      fly(NbvLoop{map<Ours<Preset>>(FieldTask::planning), Uninformed{}, Lattice{lattice()}, ArgMax{}});
   }
 
  private:
@@ -105,7 +120,8 @@ class Mission {
     const bool dense = o_.protocol == Protocol::lawnmower81;
     const double footprint_m = (dense ? 0.2 : 0.25) * o_.side_m;
     const double height_m = 0.5 * footprint_m / std::tan(deg(o_.half_angle_deg));
-    fly(NbvLoop{std::move(map), Uninformed{}, Survey{input_.truth.area(), dense ? 9 : 4, height_m, footprint_m}, InOrder{}});
+    fly(NbvLoop{std::move(map), Uninformed{}, Survey{input_.truth.area(), dense ? 9 : 4, height_m, footprint_m},
+                InOrder{}});
   }
 
   template <class MapT>
@@ -117,8 +133,8 @@ class Mission {
     return MapT(in_unit_of(input_.truth, c, o_.threshold));
   }
 
-  /// The two layers of section 3.2.3, at a tenth and a quarter of the side (2 m and 5 m over 20 m). Over an area that is
-  /// no square the views keep their spacing, and over one narrower than a footprint they fly along its middle.
+  /// The two layers of section 3.2.3, at a tenth and a quarter of the side (2 m and 5 m over 20 m). Over an area that
+  /// is no square the views keep their spacing, and over one narrower than a footprint they fly along its middle.
   [[nodiscard]] Lattice::Config lattice() const {
     const Box2& area = input_.truth.area();
     const Lattice::Config square = std::is_same_v<Preset, preset::thesis> ? Lattice::thesis() : Lattice::reference();
@@ -127,7 +143,8 @@ class Mission {
       const double height_m = model.height_m * o_.side_m / 20, inset_m = height_m * std::tan(deg(o_.half_angle_deg));
       Layer layer{height_m, area, 1, 1};
       for (int axis = 0; axis < 2; ++axis) {
-        const double span_m = area.sizes()[axis] - 2 * inset_m, spacing_m = model.bounds.sizes()[axis] * o_.side_m / 20 / ((axis == 0 ? model.nx : model.ny) - 1);
+        const double span_m = area.sizes()[axis] - 2 * inset_m,
+                     spacing_m = model.bounds.sizes()[axis] * o_.side_m / 20 / ((axis == 0 ? model.nx : model.ny) - 1);
         (axis == 0 ? layer.nx : layer.ny) = 1 + std::max(0, static_cast<int>(std::lround(span_m / spacing_m)));
         layer.bounds.min()[axis] = area.center()[axis] - std::max(0.0, 0.5 * span_m);
         layer.bounds.max()[axis] = area.center()[axis] + std::max(0.0, 0.5 * span_m);
@@ -151,9 +168,17 @@ class Mission {
     FieldWorld world(truth, WorldNoise<Preset>{.alpha = alpha}, Rng(o_.seed).fork(1), {.sensor = sensor()});
     MissionState state{.here = nadir(truth.area().min().x(), truth.area().min().y(), 0), .rng = Rng(o_.seed)};
 
-    Recorder recorder(RecorderConfig{.file = o_.out / "mission.json", .config = config(o_, input_, judge.threshold, alpha), .seed = o_.seed}, judge);
-    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = o_.checkpoint_s}, recorder);
-    Progress progress(recorder.record(), std::cerr, {.budget_s = o_.budget_s, .budget_steps = o_.measurements, .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
+    Recorder recorder(
+        RecorderConfig{
+            .file = o_.out / "mission.json", .config = config(o_, input_, judge.threshold, alpha), .seed = o_.seed},
+        judge);
+    Checkpoint checkpoint(CheckpointConfig{.file = o_.out / "mission.checkpoint", .every_s = o_.checkpoint_s},
+                          recorder);
+    Progress progress(recorder.record(), std::cerr,
+                      {.budget_s = o_.budget_s,
+                       .budget_steps = o_.measurements,
+                       .terminal_fd = STDERR_FILENO,
+                       .utf8 = locale_is_utf8()});
 
     if (o_.resume && checkpoint.load(loop, world, clock, state))
       std::cerr << "resumed after step " << state.visited.size() << '\n';

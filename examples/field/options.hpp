@@ -40,17 +40,17 @@ inline const std::vector<MethodName>& methods() {
 }
 
 struct Options : MissionOptions {
-  std::filesystem::path file = {};             ///< --field; empty: the default field
+  std::filesystem::path file = {};  ///< --field; empty: the default field
   std::optional<std::string> column = {};
-  std::optional<std::uint64_t> random = {};    ///< --random SEED: a random field
+  std::optional<std::uint64_t> random = {};  ///< --random SEED: a random field
   Protocol protocol = Protocol::plan;
-  std::optional<int> resolution = {};          ///< cells a side; default 32, of the protocol lawnmower81 64
-  std::optional<double> threshold = {};        ///< in the field's unit; default 70 % of its range
-  std::optional<double> alpha = {};            ///< noise of the sensor; default the preset's
+  std::optional<int> resolution = {};    ///< cells a side; default 32, of the protocol lawnmower81 64
+  std::optional<double> threshold = {};  ///< in the field's unit; default 70 % of its range
+  std::optional<double> alpha = {};      ///< noise of the sensor; default the preset's
   int pixels = 20;
   double half_angle_deg = 45;
-  double side_m = 20;                          ///< of the flight area, the longer one
-  double checkpoint_s = 1;                     ///< real time between two checkpoints
+  double side_m = 20;       ///< of the flight area, the longer one
+  double checkpoint_s = 1;  ///< real time between two checkpoints
 
   Options() {
     out = "out/field";
@@ -63,23 +63,47 @@ struct Options : MissionOptions {
 
 inline void add_options(CLI::App& app, Options& o) {
   add_mission_options(app, o, methods());
-  app.add_option("--field", o.file, "Field to measure: x, y and values, one sample a line, on a grid or scattered")->type_name("FILE.csv");
+  app.add_option("--field", o.file, "Field to measure: x, y and values, one sample a line, on a grid or scattered")
+      ->type_name("FILE.csv");
   app.add_option("--column", o.column, "Which column holds the values (default: the last)")->type_name("NAME");
-  app.add_option("--random", o.random, "A Gaussian random field instead of a file")->check(vantage::detail::whole_number())->type_name("SEED");
+  app.add_option("--random", o.random, "A Gaussian random field instead of a file")
+      ->check(vantage::detail::whole_number())
+      ->type_name("SEED");
   app.add_option("--resolution", o.resolution, "Finest cells along a side, a power of two (default 32)")
-      ->check(CLI::IsMember(std::vector<int>{4, 8, 16, 32, 64, 128, 256, 512, 1024}))->type_name("N");
-  app.add_option("--threshold", o.threshold, "What is above matters, in the field's unit (default: 70 % of its range)")->type_name("VALUE");
+      ->check(CLI::IsMember(std::vector<int>{4, 8, 16, 32, 64, 128, 256, 512, 1024}))
+      ->type_name("N");
+  app.add_option("--threshold", o.threshold, "What is above matters, in the field's unit (default: 70 % of its range)")
+      ->type_name("VALUE");
   app.add_option("--protocol", o.protocol,
-                 "plan: views are planned. lawnmower16: 4 x 4 views side by side (Table 3.1). lawnmower81: 9 x 9 views that overlap by half, 64 x 64 cells (Fig. 3.5)")
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, Protocol>>{{"plan", Protocol::plan},
-                                                                                        {"lawnmower16", Protocol::lawnmower16},
-                                                                                        {"lawnmower81", Protocol::lawnmower81}}).description(""))
-      ->default_str("plan")->type_name("NAME");
-  app.add_option("--side", o.side_m, "Longer side of the flight area, to which the field is scaled")->check(CLI::PositiveNumber)->capture_default_str()->type_name("METRES");
-  app.add_option("--noise", o.alpha, "Sensor noise per metre of height, for a field scaled to [0, 1] (default: the preset's)")->check(CLI::PositiveNumber)->type_name("ALPHA");
-  app.add_option("--pixels", o.pixels, "Pixels along a side of the sensor's image")->check(CLI::Range(1, 4096))->capture_default_str()->type_name("N");
-  app.add_option("--half-angle", o.half_angle_deg, "Half of the sensor's field of view")->check(CLI::Range(1.0, 80.0))->capture_default_str()->type_name("DEGREES");
-  app.add_option("--checkpoint", o.checkpoint_s, "Real time between two checkpoints; 0: after every measurement")->check(CLI::NonNegativeNumber)->capture_default_str()->type_name("SECONDS");
+                 "plan: views are planned. lawnmower16: 4 x 4 views side by side (Table 3.1). lawnmower81: 9 x 9 views "
+                 "that overlap by half, 64 x 64 cells (Fig. 3.5)")
+      ->transform(
+          CLI::CheckedTransformer(std::vector<std::pair<std::string, Protocol>>{{"plan", Protocol::plan},
+                                                                                {"lawnmower16", Protocol::lawnmower16},
+                                                                                {"lawnmower81", Protocol::lawnmower81}})
+              .description(""))
+      ->default_str("plan")
+      ->type_name("NAME");
+  app.add_option("--side", o.side_m, "Longer side of the flight area, to which the field is scaled")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->type_name("METRES");
+  app.add_option("--noise", o.alpha,
+                 "Sensor noise per metre of height, for a field scaled to [0, 1] (default: the preset's)")
+      ->check(CLI::PositiveNumber)
+      ->type_name("ALPHA");
+  app.add_option("--pixels", o.pixels, "Pixels along a side of the sensor's image")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_option("--half-angle", o.half_angle_deg, "Half of the sensor's field of view")
+      ->check(CLI::Range(1.0, 80.0))
+      ->capture_default_str()
+      ->type_name("DEGREES");
+  app.add_option("--checkpoint", o.checkpoint_s, "Real time between two checkpoints; 0: after every measurement")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->type_name("SECONDS");
 }
 
 /// Throws Error for options that contradict each other.

@@ -37,20 +37,31 @@ class Artist {
     const double low = truth_.minimum(), high = std::max(truth_.maximum(), low + 1e-12);
     const ColourScale values{colours_of(viridis), low, high, unit};
     std::vector<Drawing> d;
-    d.push_back({"truth.png", "The field", "The truth, which the UAV does not know. In all pictures, lines bound what truly lies above the threshold.",
-                 draw(viridis, low, high, truth_.values()), values});
+    d.push_back(
+        {"truth.png", "The field",
+         "The truth, which the UAV does not know. In all pictures, lines bound what truly lies above the threshold.",
+         draw(viridis, low, high, truth_.values()), values});
     d.push_back({"map.png", "The map", "Mean of each cell, and the cells' borders: large where little matters.",
                  draw(viridis, low, high, map_.mean_raster, Overlay::cells), values});
     if (map_.decompressed.size() != 0)
-      d.push_back({"decompressed.png", "Decompressed", "What the map says at a higher resolution, by the correlation of its cells.",
+      d.push_back({"decompressed.png", "Decompressed",
+                   "What the map says at a higher resolution, by the correlation of its cells.",
                    draw(viridis, low, high, map_.decompressed), values});
-    d.push_back({"path.png", "The flight", "A dot is a measurement, the large dot the start.", draw(viridis, low, high, truth_.values(), Overlay::path), values});
+    d.push_back({"path.png", "The flight", "A dot is a measurement, the large dot the start.",
+                 draw(viridis, low, high, truth_.values(), Overlay::path), values});
     const Image<double> error = map_.mean_raster - truth_.values();
     const double unsure = quantile(map_.deviation_raster, 0.98), wrong = quantile(error.abs(), 0.98);
-    d.push_back({"uncertainty.png", "Uncertainty", "Standard deviation that the map states. The end of the scale stands for the highest 2 %, too.",
-                 draw(plum, 0, unsure, map_.deviation_raster), {colours_of(plum), 0, unsure, unit}});
-    d.push_back({"error.png", "Error", "Map minus truth: red is too high, blue too low. The ends of the scale stand for the largest 2 %, too.",
-                 draw(blue_white_red, -wrong, wrong, error), {colours_of(blue_white_red), -wrong, wrong, unit}});
+    d.push_back({"uncertainty.png",
+                 "Uncertainty",
+                 "Standard deviation that the map states. The end of the scale stands for the highest 2 %, too.",
+                 draw(plum, 0, unsure, map_.deviation_raster),
+                 {colours_of(plum), 0, unsure, unit}});
+    d.push_back(
+        {"error.png",
+         "Error",
+         "Map minus truth: red is too high, blue too low. The ends of the scale stand for the largest 2 %, too.",
+         draw(blue_white_red, -wrong, wrong, error),
+         {colours_of(blue_white_red), -wrong, wrong, unit}});
     return d;
   }
 
@@ -63,7 +74,8 @@ class Artist {
     return raster(std::min(static_cast<Eigen::Index>(t.y() * static_cast<double>(raster.rows())), raster.rows() - 1),
                   std::min(static_cast<Eigen::Index>(t.x() * static_cast<double>(raster.cols())), raster.cols() - 1));
   }
-  [[nodiscard]] Picture draw(Palette palette, double low, double high, const Image<double>& raster, Overlay overlay = Overlay::none) const {
+  [[nodiscard]] Picture draw(Palette palette, double low, double high, const Image<double>& raster,
+                             Overlay overlay = Overlay::none) const {
     Canvas canvas(truth_.area(), 800);
     canvas.fill([&](const Eigen::Vector2d& p) {
       return palette(std::isnan(truth_.at(p)) ? truth_.at(p) : (at(raster, p) - low) / (high - low));
@@ -109,7 +121,8 @@ void write_map(const std::filesystem::path& out, const Snapshot& map) {
   char line[256];
   for (std::size_t i = 0; i < map.cell.size(); ++i) {
     const Box2& b = map.cell[i];
-    std::snprintf(line, sizeof line, "%.10g,%.10g,%.10g,%.10g,%.17g,%.17g\n", b.min().x(), b.min().y(), b.max().x(), b.max().y(), map.mean[i], map.deviation[i]);
+    std::snprintf(line, sizeof line, "%.10g,%.10g,%.10g,%.10g,%.17g,%.17g\n", b.min().x(), b.min().y(), b.max().x(),
+                  b.max().y(), map.mean[i], map.deviation[i]);
     csv += line;
   }
   write_file(out / "cells.csv", csv);
@@ -126,25 +139,30 @@ std::vector<KeyFigure> key_figures(const MissionRecord& record, const Input& inp
     const double x = last.metric(metric);
     return std::isnan(x) ? "there are none" : short_number(tenths(100 * x / input.truth.range())) + " % of the range";
   };
-  return {{"RMSE", short_number(last.metric("rmse")), unit, share("rmse")},
-          {"RMSE in hotspots", short_number(last.metric("rmse_hotspots")), unit, share("rmse_hotspots")},
-          {"IoU of hotspots", short_number(tenths(100 * last.metric("iou"))), "%", "in map and truth / in either"},
-          {"Cells", short_number(last.metric("cells")), "", "from " + short_number(record.steps.front().metric("cells"))},
-          {"Measurements", short_number(static_cast<double>(last.index)), "", short_number(tenths(last.travelled_m)) + " m flown"},
-          {"Mission time", short_number(tenths(last.elapsed_s)), "s", "planning, mapping, flight"}};
+  return {
+      {"RMSE", short_number(last.metric("rmse")), unit, share("rmse")},
+      {"RMSE in hotspots", short_number(last.metric("rmse_hotspots")), unit, share("rmse_hotspots")},
+      {"IoU of hotspots", short_number(tenths(100 * last.metric("iou"))), "%", "in map and truth / in either"},
+      {"Cells", short_number(last.metric("cells")), "", "from " + short_number(record.steps.front().metric("cells"))},
+      {"Measurements", short_number(static_cast<double>(last.index)), "",
+       short_number(tenths(last.travelled_m)) + " m flown"},
+      {"Mission time", short_number(tenths(last.elapsed_s)), "s", "planning, mapping, flight"}};
 }
 
 }  // namespace
 
-void write_results(const Options& o, const Input& input, const Snapshot& map, double threshold, const MissionRecord& record) {
+void write_results(const Options& o, const Input& input, const Snapshot& map, double threshold,
+                   const MissionRecord& record) {
   write_map(o.out, map);
   const ScalarField& truth = input.truth;
   const Quantity& q = truth.quantity();
   Report report{.title = "Field mission: " + words(input.name)};
-  report.lead = concat("A UAV maps ", words(q.name), " (", short_number(truth.minimum()), " to ", short_number(truth.maximum()), q.unit.empty() ? "" : " ", q.unit,
-                       ") over ", short_number(tenths(truth.area().sizes().x())), " m x ", short_number(tenths(truth.area().sizes().y())),
-                       " m; what lies above ", short_number(threshold), q.unit.empty() ? "" : " ", q.unit, " matters. Method ", o.method, ", at most ",
-                       o.cells_a_side(), " x ", o.cells_a_side(), " cells. ", input.note);
+  report.lead =
+      concat("A UAV maps ", words(q.name), " (", short_number(truth.minimum()), " to ", short_number(truth.maximum()),
+             q.unit.empty() ? "" : " ", q.unit, ") over ", short_number(tenths(truth.area().sizes().x())), " m x ",
+             short_number(tenths(truth.area().sizes().y())), " m; what lies above ", short_number(threshold),
+             q.unit.empty() ? "" : " ", q.unit, " matters. Method ", o.method, ", at most ", o.cells_a_side(), " x ",
+             o.cells_a_side(), " cells. ", input.note);
   report.figures = key_figures(record, input);
 
   std::vector<View> path;

@@ -20,7 +20,10 @@ template <class M>
 inline constexpr bool decompressible = false;
 template <class Kernel, class Belief, class Resolution, class Sensor>
 inline constexpr bool decompressible<IntegralGp<Kernel, CellAverage, Belief, Resolution, Sensor>> =
-    requires(const Belief b, const NdTree& tree) { b.covariance_matrix(tree); } || requires(const Belief b, std::size_t i) { b.covariance(i, i); };
+    requires(const Belief b, const NdTree& tree) {
+  b.covariance_matrix(tree);
+}
+|| requires(const Belief b, std::size_t i) { b.covariance(i, i); };
 
 /// A map as numbers, whatever its type: its cells, and rasters at the truth's resolution (rows along +y).
 struct Snapshot {
@@ -30,7 +33,8 @@ struct Snapshot {
   Image<double> decompressed = {};  ///< empty: the map cannot say, or has so many cells that it would take long
 
   template <FieldMap M>
-  Snapshot(const M& map, const ScalarField& truth) : mean_raster(truth.rows(), truth.columns()), deviation_raster(mean_raster) {
+  Snapshot(const M& map, const ScalarField& truth)
+      : mean_raster(truth.rows(), truth.columns()), deviation_raster(mean_raster) {
     for (std::size_t i = 0; i < map.size(); ++i) {
       cell.push_back(map.cell(i));
       mean.push_back(map.mean(i));
@@ -45,7 +49,8 @@ struct Snapshot {
     if constexpr (decompressible<M>)
       if (map.size() <= 2048) {  // its cost grows with the cube of the cells
         const Eigen::Vector2d side = 100 * truth.area().sizes() / truth.area().sizes().maxCoeff();
-        const int columns = std::max(1, static_cast<int>(std::lround(side.x()))), rows = std::max(1, static_cast<int>(std::lround(side.y())));
+        const int columns = std::max(1, static_cast<int>(std::lround(side.x()))),
+                  rows = std::max(1, static_cast<int>(std::lround(side.y())));
         const Decompressed fine = decompress(map, grid_boxes(truth.area(), columns, rows));
         decompressed = Eigen::Map<const Image<double>>(fine.mean.data(), rows, columns);
       }
@@ -59,6 +64,7 @@ inline std::string words(std::string name) {
 }
 
 /// Writes pictures, map and page into o.out.
-void write_results(const Options& o, const Input& input, const Snapshot& map, double threshold, const MissionRecord& record);
+void write_results(const Options& o, const Input& input, const Snapshot& map, double threshold,
+                   const MissionRecord& record);
 
 }  // namespace field

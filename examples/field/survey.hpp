@@ -17,7 +17,8 @@ using namespace vantage;
 class Survey : public Pattern {
  public:
   /// Footprints as wide as `footprint_m` end at the area's edges.
-  Survey(const Box2& area, int n, double height_m, double footprint_m) : Pattern(legs(area, n, height_m, footprint_m), 1e-6) {}
+  Survey(const Box2& area, int n, double height_m, double footprint_m)
+      : Pattern(legs(area, n, height_m, footprint_m), 1e-6) {}
 
  private:
   static std::vector<View> legs(const Box2& area, int n, double height_m, double footprint_m) {

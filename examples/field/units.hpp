@@ -12,9 +12,10 @@ namespace field {
 
 using namespace vantage;
 
-/// A map's configuration, made for fields in [0, 1], for a field of any range: the map then speaks the field's unit, and
-/// does to it exactly what the other one would do to the field scaled to [0, 1]. The prior thus knows the field's range,
-/// as one does from an earlier campaign, and nothing else of it. `threshold` is in the field's unit (default: scaled).
+/// A map's configuration, made for fields in [0, 1], for a field of any range: the map then speaks the field's unit,
+/// and does to it exactly what the other one would do to the field scaled to [0, 1]. The prior thus knows the field's
+/// range, as one does from an earlier campaign, and nothing else of it. `threshold` is in the field's unit (default:
+/// scaled).
 template <class Config>
 Config in_unit_of(const ScalarField& truth, Config c, std::optional<double> threshold = {}) {
   const double low = truth.minimum(), unit = truth.range() > 0 ? truth.range() : 1, unit2 = unit * unit;
@@ -26,7 +27,8 @@ Config in_unit_of(const ScalarField& truth, Config c, std::optional<double> thre
   if constexpr (requires { c.sensor.partial.beta *= unit2; }) c.sensor.partial.beta *= unit2;
   auto& interest = c.resolution.interest;
   interest.threshold = threshold.value_or(scaled(interest.threshold));
-  if constexpr (std::is_same_v<decltype(interest.margin), VarianceMargin>) interest.margin.gamma /= unit;  // meets a variance
+  if constexpr (std::is_same_v<decltype(interest.margin), VarianceMargin>)
+    interest.margin.gamma /= unit;  // meets a variance
   if constexpr (requires { c.belief.variance_error; }) {
     c.belief.variance_error *= unit2;
     c.belief.least_noise_variance *= unit2;

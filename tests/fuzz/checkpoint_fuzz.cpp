@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 
 // Any bytes as a checkpoint: refused with an Error and nothing changed, or loaded whole. The input is tried as it is,
-// once more with its checksum made right, so that what lies behind the checksum is reached too, and as bits to flip in a
-// good checkpoint, so that the corpus stays of use when the layout changes.
+// once more with its checksum made right, so that what lies behind the checksum is reached too, and as bits to flip in
+// a good checkpoint, so that the corpus stays of use when the layout changes.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>

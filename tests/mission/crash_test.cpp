@@ -23,7 +23,8 @@ using namespace vantage;
 std::string text_of(const std::filesystem::path& file) { return read_file(file, std::size_t{1} << 30); }
 
 ::pid_t start(const std::string& kind, const std::filesystem::path& folder) {
-  std::string program = std::string(VANTAGE_PROGRAMS_DIR) + "/mission_to_kill_program", mode = kind, out = folder.string();
+  std::string program = std::string(VANTAGE_PROGRAMS_DIR) + "/mission_to_kill_program", mode = kind,
+              out = folder.string();
   char* argv[] = {program.data(), mode.data(), out.data(), nullptr};
   ::pid_t pid = -1;
   return ::posix_spawn(&pid, program.c_str(), nullptr, nullptr, argv, environ) == 0 ? pid : -1;
@@ -50,7 +51,8 @@ void run_and_kill(const std::string& kind, const std::filesystem::path& folder, 
     }
     ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
     ++toll.kills;
-    toll.amid_writing += std::filesystem::exists(folder / "mission.checkpoint.part") || std::filesystem::exists(folder / "mission.json.part");
+    toll.amid_writing += std::filesystem::exists(folder / "mission.checkpoint.part") ||
+                         std::filesystem::exists(folder / "mission.json.part");
   }
 }
 
@@ -71,13 +73,15 @@ TEST_P(Crash, AtLeastTwentyKillsAndTheSameBytes) {
     const toy::Folder broken;
     run_and_kill(GetParam(), broken.path, rng, toll);
     if (HasFatalFailure()) return;
-    for (const char* file : {"mission.json", "map.bytes"}) ASSERT_EQ(text_of(broken.path / file), text_of(whole.path / file)) << file;
+    for (const char* file : {"mission.json", "map.bytes"})
+      ASSERT_EQ(text_of(broken.path / file), text_of(whole.path / file)) << file;
   }
   RecordProperty("kills", toll.kills);
   RecordProperty("kills_amid_writing", toll.amid_writing);
   std::cout << toll.kills << " kills, " << toll.amid_writing << " of them while a file was written\n";
 }
 
-INSTANTIATE_TEST_SUITE_P(Missions, Crash, testing::Values("toy", "field"), [](const auto& parameter) { return std::string(parameter.param); });
+INSTANTIATE_TEST_SUITE_P(Missions, Crash, testing::Values("toy", "field"),
+                         [](const auto& parameter) { return std::string(parameter.param); });
 
 }  // namespace

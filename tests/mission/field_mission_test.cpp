@@ -19,42 +19,20 @@
 #include <vantage/io/file.hpp>
 #include <vector>
 
-#include "toy/folder.hpp"
+#include "mission_program.hpp"
 
 // The program examples/field, as its users start it.
 namespace {
 
 using namespace vantage;
 
-std::string text_of(const std::filesystem::path& file) { return read_file(file, std::size_t{1} << 30); }
-nlohmann::json mission(const std::filesystem::path& out) { return nlohmann::json::parse(text_of(out / "mission.json")); }
+nlohmann::json mission(const std::filesystem::path& out) {
+  return nlohmann::json::parse(text_of(out / "mission.json"));
+}
 
-class FieldMission : public testing::Test {
+class FieldMission : public MissionProgram {
  protected:
-  const std::filesystem::path program = std::filesystem::path(VANTAGE_PROGRAMS_DIR) / ".." / "examples" / "field";
-  const toy::Folder folder;
-
-  void SetUp() override {
-    if (!std::filesystem::exists(program)) GTEST_SKIP() << "the examples are not built";
-  }
-  struct Ended {
-    int code;
-    std::string out, err;
-  };
-  [[nodiscard]] ::pid_t start(const std::string& arguments) const {
-    std::string shell = "/bin/sh", c = "-c";
-    std::string line = "exec '" + program.string() + "' " + arguments + " >'" + (folder.path / "out.txt").string() + "' 2>'" + (folder.path / "err.txt").string() + "'";
-    char* argv[] = {shell.data(), c.data(), line.data(), nullptr};
-    ::pid_t pid = -1;
-    return ::posix_spawn(&pid, shell.c_str(), nullptr, nullptr, argv, environ) == 0 ? pid : -1;
-  }
-  [[nodiscard]] Ended run(const std::string& arguments) const {
-    const ::pid_t pid = start(arguments);
-    int status = -1;
-    ::waitpid(pid, &status, 0);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder.path / "out.txt"), text_of(folder.path / "err.txt")};
-  }
-  [[nodiscard]] std::string out(const std::string& name) const { return " --out '" + (folder.path / name).string() + "'"; }
+  FieldMission() : MissionProgram("field") {}
   [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
     std::ofstream(folder.path / name) << text;
     return " --field '" + (folder.path / name).string() + "'";
@@ -136,7 +114,8 @@ TEST_F(FieldMission, EveryMethodAndPresetRuns) {
   for (std::string line; std::getline(lines, line); ++methods)
     for (const char* preset : {"thesis", "reference"}) {
       const std::string method = line.substr(0, line.find(' '));
-      const Ended e = run("--random 1 --resolution 16 --measurements 3 --clock modelled --method " + method + " --preset " + preset + out(method));
+      const Ended e = run("--random 1 --resolution 16 --measurements 3 --clock modelled --method " + method +
+                          " --preset " + preset + out(method));
       ASSERT_EQ(e.code, 0) << method << ' ' << preset << ": " << e.err;
       EXPECT_EQ(mission(folder.path / method)["steps"].size(), 4u) << method;
     }
@@ -144,7 +123,8 @@ TEST_F(FieldMission, EveryMethodAndPresetRuns) {
 }
 
 TEST_F(FieldMission, TheProtocolOfFigure35) {
-  const Ended e = run("--random 1 --resolution 16 --protocol lawnmower81 --budget 1000 --threshold 0.6 --clock modelled" + out("a"));
+  const Ended e = run(
+      "--random 1 --resolution 16 --protocol lawnmower81 --budget 1000 --threshold 0.6 --clock modelled" + out("a"));
   ASSERT_EQ(e.code, 0) << e.err;
   const auto json = mission(folder.path / "a");
   EXPECT_EQ(json["steps"].size(), 82u);
@@ -157,9 +137,11 @@ std::string plane(bool gridded) {
   std::string csv = "x,y,other,level\n";
   for (int i = 0; i < 12; ++i)
     for (int j = 0; j < 9; ++j) {
-      const double x = i + (gridded ? 0 : 0.3 * std::sin(7.0 * i + 3.0 * j)), y = j + (gridded ? 0 : 0.3 * std::cos(5.0 * i + 11.0 * j));
+      const double x = i + (gridded ? 0 : 0.3 * std::sin(7.0 * i + 3.0 * j)),
+                   y = j + (gridded ? 0 : 0.3 * std::cos(5.0 * i + 11.0 * j));
       const bool hole = gridded && i > 7 && j > 5;
-      csv += std::to_string(x) + "," + std::to_string(y) + ",1," + (hole ? "" : std::to_string(1000 + 10 * x + 5 * y)) + "\n";
+      csv += std::to_string(x) + "," + std::to_string(y) + ",1," + (hole ? "" : std::to_string(1000 + 10 * x + 5 * y)) +
+             "\n";
     }
   return csv;
 }
@@ -167,7 +149,8 @@ std::string plane(bool gridded) {
 TEST_F(FieldMission, FieldsFromFilesInTheirOwnUnit) {
   for (const bool gridded : {true, false}) {
     const std::string name = gridded ? "grid" : "scattered";
-    const Ended e = run("--resolution 16 --budget 120 --clock modelled --column level" + file(name + ".csv", plane(gridded)) + out(name));
+    const Ended e = run("--resolution 16 --budget 120 --clock modelled --column level" +
+                        file(name + ".csv", plane(gridded)) + out(name));
     ASSERT_EQ(e.code, 0) << e.err;
     const auto json = mission(folder.path / name);
     EXPECT_NEAR(json["config"]["range"][0].get<double>(), 1000, 10);
@@ -178,11 +161,28 @@ TEST_F(FieldMission, FieldsFromFilesInTheirOwnUnit) {
 }
 
 TEST_F(FieldMission, BadUsageAndBadInputAreOneLineAndExitCodeTwo) {
-  const std::vector<std::string> bad = {
-      "--method magic", "--resolution 33", "--random x", "--random -1", "--budget 0", "--threshold nan", "--threads -1", "--pixels 0", "--half-angle 90",
-      "--field /nowhere/at/all.csv", "--random 1 --field x.csv", "--column level", "stray", "--side inf", "--noise -1", "--out /dev/null/x",
-      file("text.csv", "this is no table"), file("empty.csv", ""), file("nan.csv", "x,y,v\n1,1,nan\n2,2,inf\n"), file("short.csv", "x,y,v\n1,1,1\n"),
-      file("line.csv", "x,y,v\n0,0,1\n1,1,2\n2,2,3\n3,3,4\n4,4,5\n"), file("columns.csv", plane(true)) + " --column none"};
+  const std::vector<std::string> bad = {"--method magic",
+                                        "--resolution 33",
+                                        "--random x",
+                                        "--random -1",
+                                        "--budget 0",
+                                        "--threshold nan",
+                                        "--threads -1",
+                                        "--pixels 0",
+                                        "--half-angle 90",
+                                        "--field /nowhere/at/all.csv",
+                                        "--random 1 --field x.csv",
+                                        "--column level",
+                                        "stray",
+                                        "--side inf",
+                                        "--noise -1",
+                                        "--out /dev/null/x",
+                                        file("text.csv", "this is no table"),
+                                        file("empty.csv", ""),
+                                        file("nan.csv", "x,y,v\n1,1,nan\n2,2,inf\n"),
+                                        file("short.csv", "x,y,v\n1,1,1\n"),
+                                        file("line.csv", "x,y,v\n0,0,1\n1,1,2\n2,2,3\n3,3,4\n4,4,5\n"),
+                                        file("columns.csv", plane(true)) + " --column none"};
   for (const std::string& arguments : bad) {
     const Ended e = run(arguments + (arguments.find("--out") == arguments.npos ? out("bad") : ""));
     EXPECT_EQ(e.code, 2) << arguments << ": " << e.err;

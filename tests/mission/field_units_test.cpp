@@ -24,9 +24,11 @@ struct Method {
   using Preset = PresetT;
   using Map = MapT;
 };
-using Methods = testing::Types<Method<preset::thesis, Ours<preset::thesis>>, Method<preset::reference, Ours<preset::reference>>,
-                               Method<preset::thesis, Ours<preset::thesis, Latent<>>>, Method<preset::thesis, FrIdp<preset::thesis>>,
-                               Method<preset::reference, ArIdp<preset::reference>>, Method<preset::thesis, ArGprIk<preset::thesis>>>;
+using Methods =
+    testing::Types<Method<preset::thesis, Ours<preset::thesis>>, Method<preset::reference, Ours<preset::reference>>,
+                   Method<preset::thesis, Ours<preset::thesis, Latent<>>>,
+                   Method<preset::thesis, FrIdp<preset::thesis>>, Method<preset::reference, ArIdp<preset::reference>>,
+                   Method<preset::thesis, ArGprIk<preset::thesis>>>;
 TYPED_TEST_SUITE(FieldUnits, Methods);
 
 TYPED_TEST(FieldUnits, DoToTheFieldWhatTheyDoToTheScaledOne) {
@@ -54,7 +56,8 @@ TYPED_TEST(FieldUnits, DoToTheFieldWhatTheyDoToTheScaledOne) {
 }
 
 TEST(FieldUnits, AThresholdIsInTheFieldsUnit) {
-  const ScalarField field(Box2(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)), (Image<double>(1, 2) << -5, 15).finished());
+  const ScalarField field(Box2(Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1)),
+                          (Image<double>(1, 2) << -5, 15).finished());
   const auto config = configured<Ours<>>();
   EXPECT_DOUBLE_EQ(field::in_unit_of(field, config).resolution.interest.threshold, -5 + 0.7 * 20);
   EXPECT_DOUBLE_EQ(field::in_unit_of(field, config, 3.5).resolution.interest.threshold, 3.5);

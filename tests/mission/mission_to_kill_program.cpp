@@ -30,7 +30,8 @@ namespace {
 using namespace vantage;
 
 template <class Loop, class World, class Stop, class Metrics>
-void fly(const std::filesystem::path& folder, Loop loop, World world, const View& start, const Stop& stop, Metrics metrics) {
+void fly(const std::filesystem::path& folder, Loop loop, World world, const View& start, const Stop& stop,
+         Metrics metrics) {
   ModelledClock clock;
   MissionState state{.here = start, .rng = Rng(5)};
   Recorder recorder(RecorderConfig{.file = folder / "mission.json", .seed = 5, .write_every_s = 0}, metrics);
@@ -42,8 +43,9 @@ void fly(const std::filesystem::path& folder, Loop loop, World world, const View
 
 void fly_toy(const std::filesystem::path& folder) {
   // A map of some size, so that writing it takes a while.
-  fly(folder, toy::toy_loop(64), toy::ToyWorld{}, nadir(4, 4, 2), Measurements{150},
-      [](const toy::ToyMap& map) { return std::vector<Metric>{{"variance", map.total_variance()}}; });
+  fly(folder, toy::toy_loop(64), toy::ToyWorld{}, nadir(4, 4, 2), Measurements{150}, [](const toy::ToyMap& map) {
+    return std::vector<Metric>{{"variance", map.total_variance()}};
+  });
 }
 
 void fly_field(const std::filesystem::path& folder) {
@@ -52,7 +54,9 @@ void fly_field(const std::filesystem::path& folder) {
     const FieldMetrics m = field_metrics(map, truth, map.interest());
     return std::vector<Metric>{{"rmse", m.rmse}, {"iou", m.iou}, {"cells", static_cast<double>(m.cells)}};
   };
-  fly(folder, NbvLoop{IntegralGp<>({.tree = {.depth = 4}, .prior_mean = 0.7}), VarianceReduction{}, Lattice{Lattice::reference()}, PerFlightTime{}},
+  fly(folder,
+      NbvLoop{IntegralGp<>({.tree = {.depth = 4}, .prior_mean = 0.7}), VarianceReduction{},
+              Lattice{Lattice::reference()}, PerFlightTime{}},
       FieldWorld(truth, VarianceByHeight{}, Rng(9)), nadir(0, 0, 0), Measurements{80}, metrics);
 }
 

@@ -31,9 +31,12 @@ inline std::string unbalanced(const std::string& xml) {
     at = end;
     if (tag.empty() || tag.back() == '/') continue;
     const std::string name = tag.substr(0, tag.find(' '));
-    if (name[0] != '/') open.push_back(name);
-    else if (open.empty() || open.back() != name.substr(1)) return "</" + name;
-    else open.pop_back();
+    if (name[0] != '/')
+      open.push_back(name);
+    else if (open.empty() || open.back() != name.substr(1))
+      return "</" + name;
+    else
+      open.pop_back();
   }
   return open.empty() ? "" : "<" + open.back();
 }

@@ -24,7 +24,9 @@ struct ToyMap {
   using Measurement = FieldImage;
   explicit ToyMap(int n) : cells_per_side(n), sum(static_cast<std::size_t>(n * n)), count(sum) {}
 
-  [[nodiscard]] Box3 bounds() const { return {Eigen::Vector3d::Zero(), Eigen::Vector3d(cells_per_side, cells_per_side, 0)}; }
+  [[nodiscard]] Box3 bounds() const {
+    return {Eigen::Vector3d::Zero(), Eigen::Vector3d(cells_per_side, cells_per_side, 0)};
+  }
   void integrate(const FieldImage& z, Rng& rng) {
     if (!z.values.isFinite().all()) throw Error("ToyMap::integrate", "a value is not finite", "finite values");
     for (std::size_t i = 0; i < sum.size(); ++i)
@@ -123,7 +125,9 @@ struct ToySelector {
 struct ToyStop {
   double budget_s;
   template <class M>
-  bool operator()(const M&, const Situation& q) const { return q.elapsed_s >= budget_s; }
+  bool operator()(const M&, const Situation& q) const {
+    return q.elapsed_s >= budget_s;
+  }
 };
 
 inline auto toy_loop(int n = 8) { return NbvLoop{ToyMap(n), ToyUtility{}, ToySampler{}, ToySelector{}}; }

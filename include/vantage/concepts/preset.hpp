@@ -3,8 +3,8 @@
 #pragma once
 #include <string_view>
 
-/// Where the thesis and the published code disagree, a system has two presets; these tags choose. Each room says what it
-/// makes of a tag, in types and in values (field: FieldPreset).
+/// Where the thesis and the published code disagree, a system has two presets; these tags choose. Each room says what
+/// it makes of a tag, in types and in values (field: FieldPreset).
 namespace vantage::preset {
 
 struct thesis {

@@ -3,7 +3,8 @@
 #pragma once
 #include <cassert>
 
-/// A caller's bug, not an input: checked in debug builds only. Define it before including vantage to route it elsewhere.
+/// A caller's bug, not an input: checked in debug builds only. Define it before including vantage to route it
+/// elsewhere.
 #ifndef VANTAGE_ASSERT
 #define VANTAGE_ASSERT(condition) assert(condition)
 #endif

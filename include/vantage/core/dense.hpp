@@ -67,9 +67,12 @@ void solve_lower_serial(const ConstRef<T>& l, MatrixRef<T> b) {
 /// Lower triangle of C += alpha A^T A; A is k x n. The tiles on the diagonal are computed whole. n^2 k flops.
 template <class T>
 void add_gram(MatrixRef<T> c, const ConstRef<T>& a, T alpha) {
-  for_lower_tiles(a.cols(), [&](Index i, Index ni, Index j, Index nj) {
-    add_tn<T>(c.block(i, j, ni, nj), a.middleCols(i, ni), a.middleCols(j, nj), alpha);
-  });
+  for_lower_tiles(
+      a.cols(),
+      [&](Index i, Index ni, Index j, Index nj) {
+        add_tn<T>(c.block(i, j, ni, nj), a.middleCols(i, ni), a.middleCols(j, nj), alpha);
+      },
+      tile / 2);
 }
 
 /// B <- L^-1 B for the lower triangle L (n x n) and m columns. n^2 m flops.

@@ -15,8 +15,8 @@ namespace vantage {
 /// One measurement of a scalar field in the plane z = 0: what a sensor saw of its footprint, in the field's own unit.
 /// values(row, column): rows along +y, columns along +x of the footprint; NaN = no value there (masked, invalid).
 struct FieldImage {
-  View view;          ///< from where it was taken
-  Box2 footprint;     ///< what it covers on the ground [m]
+  View view;       ///< from where it was taken
+  Box2 footprint;  ///< what it covers on the ground [m]
   Image<double> values;
 };
 
@@ -35,7 +35,8 @@ struct NadirSensor {
   /// does not look straight down (to 1e-6).
   [[nodiscard]] Box2 footprint(const View& view) const {
     const Eigen::Vector3d p = view.position(), down = view.forward();
-    if (!p.allFinite() || !down.allFinite()) throw Error("NadirSensor::footprint", "the view is not finite", "finite numbers");
+    if (!p.allFinite() || !down.allFinite())
+      throw Error("NadirSensor::footprint", "the view is not finite", "finite numbers");
     if (!(p.z() > 0)) throw Error("NadirSensor::footprint", concat("height ", p.z(), " m"), "above the ground (z > 0)");
     if ((down + Eigen::Vector3d::UnitZ()).norm() > 1e-6)
       throw Error("NadirSensor::footprint", "the view does not look straight down", "forward = -z");

@@ -20,7 +20,7 @@ namespace vantage {
 /// What a field's values are: "elevation" in "m".
 struct Quantity {
   std::string name = "value";
-  std::string unit = "";  ///< empty: unitless or not known
+  std::string unit = {};  ///< empty: unitless or not known
 };
 
 /// One known value of a field: where [m], and what, in the field's unit; NaN = no value there.

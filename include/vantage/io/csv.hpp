@@ -18,6 +18,7 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/io/file.hpp>
+#include <vantage/io/printable.hpp>
 
 namespace vantage {
 
@@ -122,7 +123,8 @@ class CsvParser {
     });
     std::unordered_set<std::string_view> seen;
     for (const std::string& name : table_.names_)
-      if (!seen.insert(name).second) refuse(concat("two columns are named '", printable(name), "'"), "distinct names");
+      if (!seen.insert(name).second)
+        refuse(concat("two columns are named '", printable(name, 40), "'"), "distinct names");
     if (table_.columns() == 1 && line_.find_first_of(";\t") != line_.npos)
       refuse("no comma in the line of names", "comma-separated columns");
     table_.columns_.resize(table_.columns());
@@ -152,7 +154,7 @@ class CsvParser {
         value = std::numeric_limits<double>::quiet_NaN();
         if (column.bad_line == 0) {
           column.bad_line = number_;
-          column.complaint = concat("'", printable(field), "'",
+          column.complaint = concat("'", printable(field, 40), "'",
                                     failed == std::errc::result_out_of_range && whole ? " (out of range)" : "");
         }
       }
@@ -190,13 +192,6 @@ class CsvParser {
   static std::string_view trim(std::string_view s) {
     const std::size_t begin = std::min(s.find_first_not_of(" \t"), s.size());
     return s.substr(begin, s.find_last_not_of(" \t") + 1 - begin);
-  }
-  /// Hostile text, cut short and made of printable characters, for an error message.
-  static std::string printable(std::string_view s) {
-    std::string out(s.substr(0, 40));
-    for (char& c : out)
-      if (c < 0x20 || c > 0x7E) c = '?';
-    return s.size() > 40 ? out + "..." : out;
   }
   [[noreturn]] void refuse(std::string_view what, std::string_view expected) const {
     throw Error(concat(table_.where_, ":", number_), what, expected);

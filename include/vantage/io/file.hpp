@@ -13,10 +13,17 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 #include <vantage/core/error.hpp>
 
 namespace vantage {
+
+/// Whether there is a regular file of this name; a name that no file can have is none.
+inline bool file_exists(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
 
 /// The whole of a regular file. Throws Error if it cannot be read or is larger than `most_bytes`, before anything of
 /// its size is allocated.

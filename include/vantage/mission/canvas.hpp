@@ -16,8 +16,8 @@
 
 namespace vantage {
 
-/// A picture of a rectangle of the ground, +x to the right and +y up, to be drawn on in metres; lines are in pixels, and
-/// smooth. What lies outside is cut off. Not shared between threads.
+/// A picture of a rectangle of the ground, +x to the right and +y up, to be drawn on in metres; lines are in pixels,
+/// and smooth. What lies outside is cut off. Not shared between threads.
 class Canvas {
  public:
   /// The longer side gets `longer_px` pixels, 16 to 8192; throws Error for other sizes, and for an area that is empty.
@@ -66,7 +66,8 @@ class Canvas {
   }
   void dot(const Eigen::Vector2d& p_m, double radius_px, Rgb colour, double opacity = 1) {
     const Eigen::Vector2d centre_px = to_px(p_m);
-    stroke(centre_px, centre_px, radius_px, colour, opacity, [&](const Eigen::Vector2d& p) { return (p - centre_px).norm() - radius_px; });
+    stroke(centre_px, centre_px, radius_px, colour, opacity,
+           [&](const Eigen::Vector2d& p) { return (p - centre_px).norm() - radius_px; });
   }
   void rectangle(const Box2& box_m, double width_px, Rgb colour, double opacity = 1) {
     const Eigen::Vector2d &a = box_m.min(), &c = box_m.max(), b(c.x(), a.y()), d(a.x(), c.y());
@@ -79,21 +80,27 @@ class Canvas {
  private:
   static const Box2& checked(const Box2& area_m, int longer_px) {
     Check check("Canvas");
-    check(area_m.min().allFinite() && area_m.max().allFinite() && area(area_m) > 0, "area_m", area(area_m), "finite and > 0 m^2");
+    check(area_m.min().allFinite() && area_m.max().allFinite() && area(area_m) > 0, "area_m", area(area_m),
+          "finite and > 0 m^2");
     check(longer_px >= 16 && longer_px <= 8192, "longer_px", longer_px, "16 to 8192");
     check.done();
     return area_m;
   }
-  [[nodiscard]] int side(double length_m) const { return std::max(1, static_cast<int>(std::lround(length_m * px_per_m_))); }
+  [[nodiscard]] int side(double length_m) const {
+    return std::max(1, static_cast<int>(std::lround(length_m * px_per_m_)));
+  }
 
-  // Pixels within `reach` of the box [low, high], covered by how far (signed, in pixels) they are from the shape's edge.
+  // Pixels within `reach` of the box [low, high], covered by how far (signed, in pixels) they are from the shape's
+  // edge.
   template <class Distance>
-  void stroke(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double reach, Rgb colour, double opacity, Distance&& distance) {
+  void stroke(const Eigen::Vector2d& low, const Eigen::Vector2d& high, double reach, Rgb colour, double opacity,
+              Distance&& distance) {
     const auto first = [&](double v) { return static_cast<int>(std::floor(std::clamp(v - reach - 1, -1.0, 1e6))); };
     const auto last = [&](double v) { return static_cast<int>(std::ceil(std::clamp(v + reach + 1, -1.0, 1e6))); };
     for (int row = std::max(0, first(low.y())); row < std::min(picture_.height(), last(high.y())); ++row)
       for (int column = std::max(0, first(low.x())); column < std::min(picture_.width(), last(high.x())); ++column)
-        blend(row, column, colour, opacity * std::clamp(0.5 - distance(Eigen::Vector2d(column + 0.5, row + 0.5)), 0.0, 1.0));
+        blend(row, column, colour,
+              opacity * std::clamp(0.5 - distance(Eigen::Vector2d(column + 0.5, row + 0.5)), 0.0, 1.0));
   }
   void blend(int row, int column, Rgb colour, double opacity) {
     Rgb& pixel = picture_(row, column);

@@ -34,7 +34,8 @@ inline constexpr std::uint64_t checkpoint_magic = 0x74706B6365676E76ull;  // "vn
 inline constexpr std::uint32_t checkpoint_format = 1;
 
 inline std::string readable(const std::string& type) {
-  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(type.c_str(), nullptr, nullptr, nullptr), std::free);
+  const std::unique_ptr<char, void (*)(void*)> name(abi::__cxa_demangle(type.c_str(), nullptr, nullptr, nullptr),
+                                                    std::free);
   const std::string text = name ? name.get() : type;
   return text.size() <= 120 ? text : text.substr(0, 117) + "...";
 }
@@ -96,7 +97,8 @@ void restore_checkpoint(std::span<const std::byte> bytes, const std::string& whe
   source.get(version);
   if (version != VANTAGE_VERSION) throw Error(where, "was written by vantage " + version, "vantage " VANTAGE_VERSION);
   if (const auto n = source.get<std::uint32_t>(); n != sizeof...(Parts))
-    throw Error(where, concat("holds ", n, " parts"), concat(sizeof...(Parts), ": the mission is composed of other policies"));
+    throw Error(where, concat("holds ", n, " parts"),
+                concat(sizeof...(Parts), ": the mission is composed of other policies"));
   std::vector<std::vector<std::byte>> found;
   const auto read = [&](const auto& part) {
     std::string type;
@@ -123,8 +125,8 @@ void restore_checkpoint(std::span<const std::byte> bytes, const std::string& whe
 
 struct CheckpointConfig {
   std::filesystem::path file = {};  ///< its folder must exist
-  std::uint64_t every_steps = 1;  ///< measurements between two checkpoints, >= 1
-  double every_s = 0;             ///< real time between two checkpoints, >= 0; both must have passed
+  std::uint64_t every_steps = 1;    ///< measurements between two checkpoints, >= 1
+  double every_s = 0;               ///< real time between two checkpoints, >= 0; both must have passed
 };
 
 /// Observer that keeps a mission on disk: after a measurement, the map, the clock, the mission's state and whatever of
@@ -160,7 +162,7 @@ class Checkpoint {
   template <class Loop, class W, class C>
   void save(const Loop& loop, const W& world, const C& clock, const MissionState& state) {
     write_file(config_.file, std::apply([](const auto&... parts) { return checkpoint_bytes(parts...); },
-                                              parts(loop, world, clock, state)));
+                                        parts(loop, world, clock, state)));
     saved_step_ = state.visited.size();
     saved_at_ = std::chrono::steady_clock::now();
   }
@@ -182,14 +184,17 @@ class Checkpoint {
  private:
   template <class T>
   static auto if_persistent(T& part) {
-    if constexpr (Persistent<std::remove_const_t<T>>) return std::tie(part);
-    else return std::tuple<>();
+    if constexpr (Persistent<std::remove_const_t<T>>)
+      return std::tie(part);
+    else
+      return std::tuple<>();
   }
   // The riders come first: a Recorder says best what is wrong with another mission's checkpoint.
   template <class Loop, class W, class C, class State>
   auto parts(Loop& loop, W& world, C& clock, State& state) const {
-    static_assert(Persistent<typename Loop::MapType>,
-                  "vantage: a Checkpoint needs a Persistent map: give it `void save(Sink&) const` and `void load(Source&)`");
+    static_assert(
+        Persistent<typename Loop::MapType>,
+        "vantage: a Checkpoint needs a Persistent map: give it `void save(Sink&) const` and `void load(Source&)`");
     static_assert(Persistent<std::remove_const_t<C>>,
                   "vantage: a Checkpoint needs a Persistent clock: use MeasuredClock or ModelledClock");
     return std::tuple_cat(riders_, std::tie(state, clock, loop.map), if_persistent(loop.utility),

@@ -42,11 +42,11 @@ struct MethodName {
 struct MissionOptions {
   std::filesystem::path out = {};  ///< folder of the results
   std::uint64_t seed = 7;
-  int threads = 0;            ///< 0: as many as there are cores
+  int threads = 0;  ///< 0: as many as there are cores
   ClockKind clock = ClockKind::real;
   PresetKind preset = PresetKind::thesis;
   std::string method = "ours";
-  double budget_s = std::numeric_limits<double>::infinity();               ///< mission time
+  double budget_s = std::numeric_limits<double>::infinity();  ///< mission time
   std::uint64_t measurements = std::numeric_limits<std::uint64_t>::max();
   double travel_m = std::numeric_limits<double>::infinity();
   bool resume = false;
@@ -57,7 +57,9 @@ struct MissionOptions {
 class MissionClock {
  public:
   explicit MissionClock(ClockKind kind, const ModelledClock::Config& costs = {}) : kind_(kind), modelled_(costs) {}
-  [[nodiscard]] double elapsed_s() const { return kind_ == ClockKind::real ? measured_.elapsed_s() : modelled_.elapsed_s(); }
+  [[nodiscard]] double elapsed_s() const {
+    return kind_ == ClockKind::real ? measured_.elapsed_s() : modelled_.elapsed_s();
+  }
   void begin() { measured_.begin(); }
   void mapped() { measured_.mapped(), modelled_.mapped(); }
   void planned() { measured_.planned(), modelled_.planned(); }
@@ -91,9 +93,12 @@ struct ListMethods : CLI::CallForVersion {
 
 /// Digits only: CLI11 reads "-1" as a huge unsigned number.
 inline CLI::Validator whole_number() {
-  return CLI::Validator([](std::string& text) {
-    return !text.empty() && text.find_first_not_of("0123456789") == text.npos ? std::string() : "'" + text + "' is no whole number";
-  }, "");
+  return CLI::Validator(
+      [](std::string& text) {
+        return !text.empty() && text.find_first_not_of("0123456789") == text.npos ? std::string()
+                                                                                  : "'" + text + "' is no whole number";
+      },
+      "");
 }
 
 inline std::string one_line(std::string text) {
@@ -110,34 +115,55 @@ inline void add_mission_options(CLI::App& app, MissionOptions& options, const st
   std::vector<std::string> names;
   names.reserve(methods.size());
   for (const MethodName& m : methods) names.push_back(m.name);
-  const CLI::Validator positive([](std::string& text) {
-    char* end = nullptr;
-    const double x = std::strtod(text.c_str(), &end);
-    return end != text.c_str() && *end == '\0' && std::isfinite(x) && x > 0 ? std::string() : "'" + text + "' is no finite number above 0";
-  }, "> 0");
+  const CLI::Validator positive(
+      [](std::string& text) {
+        char* end = nullptr;
+        const double x = std::strtod(text.c_str(), &end);
+        return end != text.c_str() && *end == '\0' && std::isfinite(x) && x > 0
+                   ? std::string()
+                   : "'" + text + "' is no finite number above 0";
+      },
+      "> 0");
   const CLI::Validator whole = detail::whole_number();
 
   app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
   app.add_option("--out", options.out, "Folder of the results")->capture_default_str()->type_name("DIR");
-  app.add_option("--seed", options.seed, "Seed of everything random")->check(whole)->capture_default_str()->type_name("N");
+  app.add_option("--seed", options.seed, "Seed of everything random")
+      ->check(whole)
+      ->capture_default_str()
+      ->type_name("N");
   app.add_option("--threads", options.threads, "Threads; 0: all cores (no result depends on it)")
-      ->check(CLI::Range(0, 1024))->capture_default_str()->type_name("N");
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str()
+      ->type_name("N");
   app.add_option("--method", options.method, "Method, or a baseline (see --list-methods)")
-      ->check(CLI::IsMember(names))->capture_default_str()->type_name("NAME");
-  app.add_flag_callback("--list-methods", [methods] { throw detail::ListMethods(methods); }, "List the methods")
+      ->check(CLI::IsMember(names))
+      ->capture_default_str()
+      ->type_name("NAME");
+  app.add_flag_callback(
+         "--list-methods", [methods] { throw detail::ListMethods(methods); }, "List the methods")
       ->trigger_on_parse();
   app.add_option("--preset", options.preset, "Where the thesis and the published code disagree: thesis or reference")
       ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, PresetKind>>{
-          {"thesis", PresetKind::thesis}, {"reference", PresetKind::reference}}).description(""))
-      ->default_str(std::string(name_of(options.preset)))->type_name("NAME");
-  app.add_option("--clock", options.clock, "Mission time of computing: real (measured) or modelled (a run repeats bit for bit)")
+                                              {"thesis", PresetKind::thesis}, {"reference", PresetKind::reference}})
+                      .description(""))
+      ->default_str(std::string(name_of(options.preset)))
+      ->type_name("NAME");
+  app.add_option("--clock", options.clock,
+                 "Mission time of computing: real (measured) or modelled (a run repeats bit for bit)")
       ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, ClockKind>>{
-          {"real", ClockKind::real}, {"modelled", ClockKind::modelled}}).description(""))
-      ->default_str(std::string(name_of(options.clock)))->type_name("NAME");
+                                              {"real", ClockKind::real}, {"modelled", ClockKind::modelled}})
+                      .description(""))
+      ->default_str(std::string(name_of(options.clock)))
+      ->type_name("NAME");
   app.add_option("--budget", options.budget_s, "Mission time: planning + mapping + flight")
-      ->check(positive)->capture_default_str()->type_name("SECONDS");
+      ->check(positive)
+      ->capture_default_str()
+      ->type_name("SECONDS");
   app.add_option("--measurements", options.measurements, "Stop after so many measurements")
-      ->check(whole)->check(positive)->type_name("N");
+      ->check(whole)
+      ->check(positive)
+      ->type_name("N");
   app.add_option("--travel", options.travel_m, "Stop after so long a way")->check(positive)->type_name("METRES");
   app.add_flag("--resume", options.resume, "Go on from the last checkpoint in the results' folder, if there is one");
 }
@@ -155,12 +181,14 @@ inline void make_folder(const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed || !std::filesystem::is_directory(folder, failed))
-    throw Error("--out", concat("cannot make the folder ", folder.string(), failed ? " (" + failed.message() + ")" : ""), "a folder to write to");
+    throw Error("--out",
+                concat("cannot make the folder ", folder.string(), failed ? " (" + failed.message() + ")" : ""),
+                "a folder to write to");
 }
 
 /// Parses the command line and runs `f()`. Returns the exit code: 0 done (also --help, --version, --list-methods, which
-/// write to `out`); 2 bad usage or input (a parse error or vantage::Error); 1 anything else. What went wrong is one line
-/// on `err`.
+/// write to `out`); 2 bad usage or input (a parse error or vantage::Error); 1 anything else. What went wrong is one
+/// line on `err`.
 template <std::invocable F>
 int run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& out, std::ostream& err, F&& f) {
   const auto fail = [&](Exit code, const std::string& what) {
@@ -169,21 +197,15 @@ int run_program(CLI::App& app, int argc, const char* const* argv, std::ostream& 
   };
   try {
     app.parse(argc, argv);
-  } catch (const CLI::Success& e) {
-    return app.exit(e, out, err);
-  } catch (const CLI::ParseError& e) {
+  } catch (const CLI::Success& e) { return app.exit(e, out, err); } catch (const CLI::ParseError& e) {
     return fail(Exit::bad_input, std::string(e.what()) + " (see --help)");
   }
   try {
     f();
     return static_cast<int>(Exit::done);
-  } catch (const Error& e) {
-    return fail(Exit::bad_input, e.what());
-  } catch (const std::bad_alloc&) {
+  } catch (const Error& e) { return fail(Exit::bad_input, e.what()); } catch (const std::bad_alloc&) {
     return fail(Exit::failed, "out of memory");
-  } catch (const std::exception& e) {
-    return fail(Exit::failed, e.what());
-  } catch (...) {
+  } catch (const std::exception& e) { return fail(Exit::failed, e.what()); } catch (...) {
     return fail(Exit::failed, "an unknown error");
   }
 }

@@ -33,7 +33,8 @@ inline Rgb srgb(const Oklab& c) {
   const double s = cube(c.l - 0.0894841775 * c.a - 1.2914855480 * c.b);
   const auto encode = [](double x) {
     x = std::clamp(x, 0.0, 1.0);
-    return static_cast<std::uint8_t>(std::lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
+    return static_cast<std::uint8_t>(
+        std::lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
   };
   return {encode(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
           encode(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
@@ -50,7 +51,8 @@ inline Oklab oklab(const Rgb& c) {
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
   const double s = std::cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s, 1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
+  return {0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
+          1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
           0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
 }
 
@@ -67,7 +69,8 @@ inline Rgb along(std::span<const Oklab> stops, double t) {
 
 /// For uncertainty: from near black (sure) by plum to cream (unsure).
 inline Rgb plum(double t) {
-  static constexpr std::array<detail::Oklab, 3> stops = {{{0.16, 0.02, -0.04}, {0.56, 0.14, 0.005}, {0.96, 0.005, 0.045}}};
+  static constexpr std::array<detail::Oklab, 3> stops = {
+      {{0.16, 0.02, -0.04}, {0.56, 0.14, 0.005}, {0.96, 0.005, 0.045}}};
   return detail::along(stops, t);
 }
 
@@ -80,7 +83,8 @@ inline Rgb blue_white_red(double t) {
 /// Colours evenly spread over a palette, for a legend.
 inline std::vector<Rgb> colours_of(Palette palette, std::size_t count = 17) {
   std::vector<Rgb> colours;
-  for (std::size_t i = 0; i < count; ++i) colours.push_back(palette(static_cast<double>(i) / static_cast<double>(count - 1)));
+  for (std::size_t i = 0; i < count; ++i)
+    colours.push_back(palette(static_cast<double>(i) / static_cast<double>(count - 1)));
   return colours;
 }
 

@@ -29,14 +29,15 @@ struct Curve {
 struct Plot {
   std::string title, x_label, y_label;
   std::vector<Curve> curves;
-  bool from_zero = true;      ///< the y axis starts at 0 if nothing is negative
-  double y_least_top = 0;     ///< the y axis reaches this at least, such as 1 for a share
+  bool from_zero = true;                ///< the y axis starts at 0 if nothing is negative
+  double y_least_top = 0;               ///< the y axis reaches this at least, such as 1 for a share
   int width_px = 560, height_px = 300;  ///< 200 to 4000; 120 to 4000
 };
 
-/// The style of every plot: up to eight colours that the colour-blind can tell apart (Okabe and Ito), and black on white
-/// or white on black as the reader prefers.
-inline constexpr std::string_view plot_css = R"(.plot{font:12px system-ui,sans-serif;--ink:#1d2329;--soft:#6a737d;--line:#d9dee3}
+/// The style of every plot: up to eight colours that the colour-blind can tell apart (Okabe and Ito), and black on
+/// white or white on black as the reader prefers.
+inline constexpr std::string_view plot_css =
+    R"(.plot{font:12px system-ui,sans-serif;--ink:#1d2329;--soft:#6a737d;--line:#d9dee3}
 .plot .c0{--c:#0072b2}.plot .c1{--c:#d55e00}.plot .c2{--c:#009e73}.plot .c3{--c:#cc79a7}
 .plot .c4{--c:#e69f00}.plot .c5{--c:#56b4e9}.plot .c6{--c:#8b6d2f}.plot .c7{--c:#7f7f7f}
 @media (prefers-color-scheme:dark){.plot{--ink:#e6e9ec;--soft:#98a2ad;--line:#333b43}
@@ -54,8 +55,12 @@ struct Ticks {
   double low, high, step;
   Ticks(double from, double to, int wanted) {
     if (!(to - from > 1e-9 * std::max(std::abs(from), std::abs(to)))) {  // as good as a single value, or none at all
-      if (!std::isfinite(from) || !std::isfinite(to)) from = 0, to = 1;
-      else { const double pad = from == 0 ? 1 : 0.1 * std::abs(from); from -= pad, to += pad; }
+      if (!std::isfinite(from) || !std::isfinite(to))
+        from = 0, to = 1;
+      else {
+        const double pad = from == 0 ? 1 : 0.1 * std::abs(from);
+        from -= pad, to += pad;
+      }
     }
     const double raw = (to - from) / wanted, power = std::pow(10, std::floor(std::log10(raw)));
     step = power * (raw <= 1.001 * power ? 1 : raw <= 2.001 * power ? 2 : raw <= 5.001 * power ? 5 : 10);
@@ -105,41 +110,45 @@ inline std::string svg_element(const Plot& plot) {
 
   std::size_t widest = 0;
   for (int i = 0; i < ys.count(); ++i) widest = std::max(widest, short_number(ys[i]).size());
-  const double left = 18 + 7 * static_cast<double>(widest), right = plot.width_px - 14, top = plot.curves.size() > 1 ? 54 : 36,
-               bottom = plot.height_px - 40;
+  const double left = 18 + 7 * static_cast<double>(widest), right = plot.width_px - 14,
+               top = plot.curves.size() > 1 ? 54 : 36, bottom = plot.height_px - 40;
   const auto px_x = [&](double x) { return left + (x - x_first) / (x_last - x_first) * (right - left); };
   const auto px_y = [&](double y) { return bottom - (y - ys.low) / (ys.high - ys.low) * (bottom - top); };
   using detail::px;
 
   std::string s = concat("<svg class=\"plot\" xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 ", plot.width_px, " ",
                          plot.height_px, "\" role=\"img\" aria-label=\"", escaped(plot.title), "\">\n");
-  s += "<text class=\"title\" x=\"0\" y=\"14\">" + escaped(plot.title) + "</text>";
+  s += concat("<text class=\"title\" x=\"0\" y=\"14\">", escaped(plot.title), "</text>");
   if (!plot.y_label.empty())
-    s += "<text x=\"" + px(plot.width_px) + "\" y=\"14\" text-anchor=\"end\">" + escaped(plot.y_label) + "</text>";
+    s += concat("<text x=\"", px(plot.width_px), "\" y=\"14\" text-anchor=\"end\">", escaped(plot.y_label), "</text>");
   s += "\n";
   for (int i = 0; i < ys.count(); ++i) {
     const std::string y = px(px_y(ys[i]));
-    s += "<line class=\"" + std::string(i == 0 ? "axis" : "grid") + "\" x1=\"" + px(left) + "\" x2=\"" + px(right) + "\" y1=\"" + y + "\" y2=\"" + y + "\"/>";
-    s += "<text x=\"" + px(left - 8) + "\" y=\"" + px(px_y(ys[i]) + 4) + "\" text-anchor=\"end\">" + short_number(ys[i]) + "</text>\n";
+    s += concat("<line class=\"", i == 0 ? "axis" : "grid", "\" x1=\"", px(left), "\" x2=\"", px(right), "\" y1=\"", y,
+                "\" y2=\"", y, "\"/>");
+    s += concat("<text x=\"", px(left - 8), "\" y=\"", px(px_y(ys[i]) + 4), "\" text-anchor=\"end\">",
+                short_number(ys[i]), "</text>\n");
   }
   for (int i = 0; i < xs.count(); ++i) {
     if (xs[i] < x_first - 1e-9 * xs.step || xs[i] > x_last + 1e-9 * xs.step) continue;
-    s += "<text x=\"" + px(px_x(xs[i])) + "\" y=\"" + px(bottom + 17) + "\" text-anchor=\"middle\">" + short_number(xs[i]) + "</text>";
+    s += concat("<text x=\"", px(px_x(xs[i])), "\" y=\"", px(bottom + 17), "\" text-anchor=\"middle\">",
+                short_number(xs[i]), "</text>");
   }
-  s += "\n<text x=\"" + px(right) + "\" y=\"" + px(plot.height_px - 5) + "\" text-anchor=\"end\">" + escaped(plot.x_label) + "</text>\n";
+  s += concat("\n<text x=\"", px(right), "\" y=\"", px(plot.height_px - 5), "\" text-anchor=\"end\">",
+              escaped(plot.x_label), "</text>\n");
 
   double key = 0;
   for (std::size_t k = 0; k < plot.curves.size(); ++k) {
     const Curve& c = plot.curves[k];
-    s += "<g class=\"c" + std::to_string(k % 8) + "\">";
+    s += concat("<g class=\"c", k % 8, "\">");
     if (!c.low.empty()) {
       std::string there, back;
       for (std::size_t i = 0; i < c.x.size(); ++i)
         if (std::isfinite(c.x[i]) && std::isfinite(c.low[i]) && std::isfinite(c.high[i])) {
-          there += px(px_x(c.x[i])) + "," + px(px_y(c.high[i])) + " ";
-          back = px(px_x(c.x[i])) + "," + px(px_y(c.low[i])) + " " + back;
+          there += concat(px(px_x(c.x[i])), ",", px(px_y(c.high[i])), " ");
+          back = concat(px(px_x(c.x[i])), ",", px(px_y(c.low[i])), " ", back);
         }
-      s += "<polygon class=\"band\" points=\"" + there + back + "\"/>";
+      s += concat("<polygon class=\"band\" points=\"", there, back, "\"/>");
     }
     std::string path, dots;
     bool pen_down = false;
@@ -147,16 +156,17 @@ inline std::string svg_element(const Plot& plot) {
       const bool known = std::isfinite(c.x[i]) && std::isfinite(c.y[i]);
       if (known) {
         const std::string x = px(px_x(c.x[i])), y = px(px_y(c.y[i]));
-        path += (pen_down ? "L" : "M") + x + " " + y;
-        dots += "<circle class=\"dot\" cx=\"" + x + "\" cy=\"" + y + "\" r=\"" + (c.x.size() > 60 ? "1.5" : "2.6") + "\"><title>" +
-                escaped(concat(c.name, ": ", short_number(c.y[i]), " at ", short_number(c.x[i]))) + "</title></circle>";
+        path += concat((pen_down ? "L" : "M"), x, " ", y);
+        dots += concat("<circle class=\"dot\" cx=\"", x, "\" cy=\"", y, "\" r=\"", (c.x.size() > 60 ? "1.5" : "2.6"),
+                       "\"><title>", escaped(concat(c.name, ": ", short_number(c.y[i]), " at ", short_number(c.x[i]))),
+                       "</title></circle>");
       }
       pen_down = known;
     }
-    s += "<path class=\"curve\" d=\"" + path + "\"/>" + dots;
+    s += concat("<path class=\"curve\" d=\"", path, "\"/>", dots);
     if (plot.curves.size() > 1) {
-      s += "<line class=\"curve\" x1=\"" + px(key) + "\" x2=\"" + px(key + 16) + "\" y1=\"31\" y2=\"31\"/>";
-      s += "<text class=\"key\" x=\"" + px(key + 22) + "\" y=\"35\">" + escaped(c.name) + "</text>";
+      s += concat("<line class=\"curve\" x1=\"", px(key), "\" x2=\"", px(key + 16), "\" y1=\"31\" y2=\"31\"/>");
+      s += concat("<text class=\"key\" x=\"", px(key + 22), "\" y=\"35\">", escaped(c.name), "</text>");
       key += 44 + 6.6 * static_cast<double>(c.name.size());
     }
     s += "</g>\n";

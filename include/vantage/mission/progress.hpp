@@ -32,7 +32,7 @@ inline std::optional<int> terminal_columns(int fd) {
 }
 
 struct ProgressConfig {
-  double budget_s = std::numeric_limits<double>::infinity();            ///< mission time, > 0; infinite: none
+  double budget_s = std::numeric_limits<double>::infinity();               ///< mission time, > 0; infinite: none
   std::uint64_t budget_steps = std::numeric_limits<std::uint64_t>::max();  ///< measurements, >= 1; the largest: none
   int terminal_fd = -1;  ///< a bar as wide as this terminal; -1 or no terminal: one line a step
   bool utf8 = true;      ///< else plain ASCII
@@ -78,8 +78,12 @@ class Progress {
     if (!began_) begin();
     if (drawn_) out_ << '\n';
     drawn_ = false;
-    out_ << "done (" << (reason == StopReason::stop_rule ? "stop rule" : reason == StopReason::nothing_to_do ? "nowhere left to go" : "the world ended")
-         << ") in " << short_time(real_s()) << '\n' << std::flush;
+    out_ << "done ("
+         << (reason == StopReason::stop_rule       ? "stop rule"
+             : reason == StopReason::nothing_to_do ? "nowhere left to go"
+                                                   : "the world ended")
+         << ") in " << short_time(real_s()) << '\n'
+         << std::flush;
   }
 
  private:
@@ -95,7 +99,8 @@ class Progress {
   // How much of the budget is used, in [0, 1]: whichever runs out first.
   [[nodiscard]] double share(const StepRecord& r) const {
     const double of_steps = config_.budget_steps == std::numeric_limits<std::uint64_t>::max()
-                                ? 0.0 : static_cast<double>(r.index) / static_cast<double>(config_.budget_steps);
+                                ? 0.0
+                                : static_cast<double>(r.index) / static_cast<double>(config_.budget_steps);
     return std::clamp(std::max(r.elapsed_s / config_.budget_s, of_steps), 0.0, 1.0);
   }
 
@@ -105,7 +110,8 @@ class Progress {
     const double done = share(r), made = done - share_at_begin_;
     std::vector<std::string> facts;
     facts.push_back("step " + std::to_string(r.index));
-    facts.push_back(short_number(std::round(10 * r.elapsed_s) / 10) + (std::isfinite(config_.budget_s) ? " of " + short_number(config_.budget_s) : "") + " s");
+    facts.push_back(short_number(std::round(10 * r.elapsed_s) / 10) +
+                    (std::isfinite(config_.budget_s) ? " of " + short_number(config_.budget_s) : "") + " s");
     if (r.planned) facts.push_back("utility " + short_number(r.best_utility));
     for (const Metric& m : r.metrics) facts.push_back(m.name + " " + short_number(m.value));
     if (const auto columns = terminal_columns(config_.terminal_fd)) {

@@ -63,11 +63,13 @@ struct StepRecord {
     r.view.T_W_C.matrix() = pose;
     check_view(r.view, source.where());
     r.planned = source.get<std::uint8_t>() != 0;
-    for (double* x : {&r.utility, &r.best_utility, &r.planning_s, &r.mapping_s, &r.action_s, &r.elapsed_s, &r.travelled_m})
+    for (double* x :
+         {&r.utility, &r.best_utility, &r.planning_s, &r.mapping_s, &r.action_s, &r.elapsed_s, &r.travelled_m})
       source.get(*x);
     source.get(r.candidates);
     const auto n = source.get<std::uint64_t>();
-    if (n > source.left() / 16) throw Error(source.where(), concat(n, " metrics"), "no more than the bytes that are left hold");
+    if (n > source.left() / 16)
+      throw Error(source.where(), concat(n, " metrics"), "no more than the bytes that are left hold");
     r.metrics.resize(static_cast<std::size_t>(n));
     for (Metric& m : r.metrics) {
       source.get(m.name);
@@ -89,9 +91,12 @@ struct MissionRecord {
 /// "stop_rule", "nothing_to_do" or "world_ended", as mission.json says it.
 inline std::string_view name_of(StopReason reason) {
   switch (reason) {
-    case StopReason::stop_rule: return "stop_rule";
-    case StopReason::nothing_to_do: return "nothing_to_do";
-    case StopReason::world_ended: return "world_ended";
+    case StopReason::stop_rule:
+      return "stop_rule";
+    case StopReason::nothing_to_do:
+      return "nothing_to_do";
+    case StopReason::world_ended:
+      return "world_ended";
   }
   return "unknown";
 }
@@ -119,8 +124,10 @@ inline nlohmann::ordered_json to_json(const StepRecord& r) {
   };
   nlohmann::ordered_json metrics = nlohmann::ordered_json::object();
   for (const Metric& m : r.metrics) {
-    if (m.value == std::floor(m.value) && std::abs(m.value) < 1e15) metrics[m.name] = static_cast<std::int64_t>(m.value);  // a count
-    else metrics[m.name] = m.value;
+    if (m.value == std::floor(m.value) && std::abs(m.value) < 1e15)
+      metrics[m.name] = static_cast<std::int64_t>(m.value);  // a count
+    else
+      metrics[m.name] = m.value;
   }
   return {{"step", r.index},
           {"view",
@@ -143,8 +150,9 @@ inline nlohmann::ordered_json to_json(const StepRecord& r) {
 inline std::string mission_json(const MissionRecord& record) {
   using Json = nlohmann::ordered_json;
   std::string text = "{\n  \"config\": " + record.config.dump() + ",\n  \"seed\": " + std::to_string(record.seed) +
-                     ",\n  \"versions\": " + versions().dump() + ",\n  \"stop_reason\": " +
-                     (record.reason ? Json(name_of(*record.reason)) : Json()).dump() + ",\n  \"steps\": [";
+                     ",\n  \"versions\": " + versions().dump() +
+                     ",\n  \"stop_reason\": " + (record.reason ? Json(name_of(*record.reason)) : Json()).dump() +
+                     ",\n  \"steps\": [";
   for (std::size_t i = 0; i < record.steps.size(); ++i)
     text += (i == 0 ? "\n    " : ",\n    ") + to_json(record.steps[i]).dump();
   return text + "\n  ]\n}\n";

@@ -15,11 +15,11 @@
 namespace vantage {
 
 struct RecorderConfig {
-  std::filesystem::path file = {};         ///< mission.json; empty: keep the record in memory only
+  std::filesystem::path file = {};  ///< mission.json; empty: keep the record in memory only
   nlohmann::ordered_json config = nlohmann::ordered_json::object();  ///< all that determines the mission, an object
   std::uint64_t seed = 0;
-  bool with_prior = true;   ///< steps[0] is the map before the first measurement; else the state after the first views
-  double write_every_s = 1; ///< of real time, >= 0; the last state is always written
+  bool with_prior = true;    ///< steps[0] is the map before the first measurement; else the state after the first views
+  double write_every_s = 1;  ///< of real time, >= 0; the last state is always written
 };
 
 /// Observer that records a mission and keeps mission.json up to date, whole at any moment.
@@ -59,8 +59,12 @@ class Recorder {
 
   template <class M, class Z>
   void measured(const M& map, const Situation& q, const Step<Z>& step) {
-    StepRecord r{.index = step.index, .view = step.plan ? step.plan->view : q.here, .planned = step.plan != nullptr,
-                 .planning_s = step.planning_s, .mapping_s = step.mapping_s, .action_s = step.action_s};
+    StepRecord r{.index = step.index,
+                 .view = step.plan ? step.plan->view : q.here,
+                 .planned = step.plan != nullptr,
+                 .planning_s = step.planning_s,
+                 .mapping_s = step.mapping_s,
+                 .action_s = step.action_s};
     if (step.plan) {
       r.utility = step.plan->utility;
       r.best_utility = step.plan->best_utility;
@@ -88,10 +92,13 @@ class Recorder {
     std::string config;
     source.get(config);
     const auto seed = source.get<std::uint64_t>();
-    if (config != record_.config.dump()) throw Error(source.where(), "is of a mission with other options" + differences(config), "the same options");
-    if (seed != record_.seed) throw Error(source.where(), concat("is of a mission with seed ", seed), concat("seed ", record_.seed));
+    if (config != record_.config.dump())
+      throw Error(source.where(), "is of a mission with other options" + differences(config), "the same options");
+    if (seed != record_.seed)
+      throw Error(source.where(), concat("is of a mission with seed ", seed), concat("seed ", record_.seed));
     const auto n = source.get<std::uint64_t>();
-    if (n > source.left() / 128) throw Error(source.where(), concat(n, " steps"), "no more than the bytes that are left hold");
+    if (n > source.left() / 128)
+      throw Error(source.where(), concat(n, " steps"), "no more than the bytes that are left hold");
     std::vector<StepRecord> steps(static_cast<std::size_t>(n));
     for (StepRecord& r : steps) r.load(source);
     record_.steps = std::move(steps);
@@ -122,7 +129,9 @@ class Recorder {
     const auto compare = [&](const std::string& key) {
       const auto a = there.find(key), b = record_.config.find(key);
       const bool same = a != there.end() && b != record_.config.end() && *a == *b;
-      if (!same) text += (text.empty() ? " (" : ", ") + key + ": " + value(there, key) + " there, " + value(record_.config, key) + " here";
+      if (!same)
+        text += (text.empty() ? " (" : ", ") + key + ": " + value(there, key) + " there, " +
+                value(record_.config, key) + " here";
     };
     for (const auto& [key, unused] : there.items()) compare(key);
     for (const auto& [key, unused] : record_.config.items())

@@ -40,7 +40,7 @@ struct ReportPicture {
 
 struct Report {
   std::string title;
-  std::string lead = {};     ///< what was done, in a sentence or two
+  std::string lead = {};  ///< what was done, in a sentence or two
   std::vector<KeyFigure> figures = {};
   std::vector<ReportPicture> pictures = {};
   std::vector<Plot> plots = {};
@@ -49,7 +49,8 @@ struct Report {
 
 namespace detail {
 
-inline constexpr std::string_view report_css = R"(:root{color-scheme:light dark;--paper:#fff;--card:#f6f7f9;--ink:#1d2329;--soft:#6a737d;--line:#d9dee3;--a:#0072b2;--b:#e69f00;--c:#009e73}
+inline constexpr std::string_view report_css =
+    R"(:root{color-scheme:light dark;--paper:#fff;--card:#f6f7f9;--ink:#1d2329;--soft:#6a737d;--line:#d9dee3;--a:#0072b2;--b:#e69f00;--c:#009e73}
 @media (prefers-color-scheme:dark){:root{--paper:#14181c;--card:#1c2228;--ink:#e6e9ec;--soft:#98a2ad;--line:#333b43;--a:#4ea8de;--b:#e6b34d;--c:#2ec4a0}}
 *{box-sizing:border-box}body{margin:0;background:var(--paper);color:var(--ink);font:15px/1.55 system-ui,sans-serif}
 main{max-width:1180px;margin:0 auto;padding:40px 24px 64px}h1{font-size:27px;line-height:1.2;margin:0 0 8px;font-weight:650;letter-spacing:-.01em}
@@ -71,8 +72,9 @@ th,td{padding:5px 10px;text-align:right;white-space:nowrap}th{font-weight:600;co
 )";
 
 inline std::string html_of(const KeyFigure& f) {
-  return "<div><span>" + escaped(f.name) + "</span><b>" + escaped(f.value) + (f.unit.empty() ? "" : " <small>" + escaped(f.unit) + "</small>") +
-         "</b>" + (f.note.empty() ? "" : "<span>" + escaped(f.note) + "</span>") + "</div>\n";
+  return "<div><span>" + escaped(f.name) + "</span><b>" + escaped(f.value) +
+         (f.unit.empty() ? "" : " <small>" + escaped(f.unit) + "</small>") + "</b>" +
+         (f.note.empty() ? "" : "<span>" + escaped(f.note) + "</span>") + "</div>\n";
 }
 
 inline std::string html_of(const ReportPicture& p) {
@@ -81,8 +83,9 @@ inline std::string html_of(const ReportPicture& p) {
     std::string stops;
     for (const auto& c : p.scale.colours)
       stops += concat(stops.empty() ? "" : ",", "rgb(", int{c[0]}, " ", int{c[1]}, " ", int{c[2]}, ")");
-    s += "<div class=\"scale\"><span>" + short_number(p.scale.low) + "</span><i style=\"background:linear-gradient(90deg," + stops +
-         ")\"></i><span>" + escaped(short_number(p.scale.high) + (p.scale.unit.empty() ? "" : " " + p.scale.unit)) + "</span></div>";
+    s += "<div class=\"scale\"><span>" + short_number(p.scale.low) +
+         "</span><i style=\"background:linear-gradient(90deg," + stops + ")\"></i><span>" +
+         escaped(short_number(p.scale.high) + (p.scale.unit.empty() ? "" : " " + p.scale.unit)) + "</span></div>";
   }
   return s + "<figcaption><b>" + escaped(p.title) + ".</b> " + escaped(p.caption) + "</figcaption></figure>\n";
 }
@@ -96,7 +99,8 @@ inline std::string html_of_times(const MissionRecord& record) {
   std::string bar, key;
   const auto add = [&](const char* name, const char* style, double s) {
     bar += concat("<i class=\"", style, "\" style=\"width:", px(100 * s / total_s), "%\"></i>");
-    key += concat("<span><i class=\"", style, "\"></i>", name, " ", short_number(s), " s (", short_number(std::round(1000 * s / total_s) / 10), " %)</span>");
+    key += concat("<span><i class=\"", style, "\"></i>", name, " ", short_number(s), " s (",
+                  short_number(std::round(1000 * s / total_s) / 10), " %)</span>");
   };
   add("planning", "p", planning_s);
   add("mapping", "m", mapping_s);
@@ -113,13 +117,16 @@ inline std::string fixed(double x, int digits) {
 
 inline std::string html_of_steps(const MissionRecord& record) {
   if (record.steps.empty()) return "";
-  std::string s = "<h2>Steps</h2>\n<div class=\"wide steps\"><table><thead><tr><th>step<th>time [s]<th>position [m]<th>utility<th>candidates<th>planning [ms]<th>mapping [ms]<th>travel [s]";
+  std::string s =
+      "<h2>Steps</h2>\n<div class=\"wide steps\"><table><thead><tr><th>step<th>time [s]<th>position "
+      "[m]<th>utility<th>candidates<th>planning [ms]<th>mapping [ms]<th>travel [s]";
   for (const Metric& m : record.steps.back().metrics) s += "<th>" + escaped(m.name);
   s += "</tr></thead><tbody>\n";
   for (const StepRecord& r : record.steps) {
     const Eigen::Vector3d p = r.view.position();
-    s += concat("<tr><td>", r.index, "<td>", fixed(r.elapsed_s, 1), "<td>", fixed(p.x(), 2), ", ", fixed(p.y(), 2), ", ", fixed(p.z(), 2),
-                "<td>", short_number(r.utility), "<td>", r.planned ? std::to_string(r.candidates) : "-", "<td>", fixed(1000 * r.planning_s, 1), "<td>",
+    s += concat("<tr><td>", r.index, "<td>", fixed(r.elapsed_s, 1), "<td>", fixed(p.x(), 2), ", ", fixed(p.y(), 2),
+                ", ", fixed(p.z(), 2), "<td>", short_number(r.utility), "<td>",
+                r.planned ? std::to_string(r.candidates) : "-", "<td>", fixed(1000 * r.planning_s, 1), "<td>",
                 fixed(1000 * r.mapping_s, 1), "<td>", fixed(r.action_s, 1));
     for (const Metric& m : r.metrics) s += "<td>" + short_number(m.value);
     s += "\n";
@@ -132,7 +139,8 @@ inline std::string html_of_config(const MissionRecord& record, const std::string
   if (!command.empty()) s += "<pre>" + escaped(command) + "</pre>\n";
   s += "<div class=\"wide\"><table class=\"config\"><tbody>\n";
   const auto row = [&](std::string_view key, const nlohmann::ordered_json& value) {
-    s += "<tr><td>" + escaped(key) + "<td>" + escaped(value.is_string() ? value.get<std::string>() : value.dump()) + "\n";
+    s += "<tr><td>" + escaped(key) + "<td>" + escaped(value.is_string() ? value.get<std::string>() : value.dump()) +
+         "\n";
   };
   row("seed", record.seed);
   for (const auto& [key, value] : record.config.items()) row(key, value);
@@ -145,8 +153,11 @@ inline std::string html_of_config(const MissionRecord& record, const std::string
 
 /// The page, self-contained, as HTML 5. The same record gives the same bytes.
 inline std::string report_html(const Report& report, const MissionRecord& record) {
-  std::string s = "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width,initial-scale=1\"><title>" +
-                  escaped(report.title) + "</title>\n<style>" + std::string(detail::report_css) + std::string(plot_css) + "</style></head>\n<body><main>\n";
+  std::string s =
+      "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
+      "content=\"width=device-width,initial-scale=1\"><title>" +
+      escaped(report.title) + "</title>\n<style>" + std::string(detail::report_css) + std::string(plot_css) +
+      "</style></head>\n<body><main>\n";
   s += "<h1>" + escaped(report.title) + "</h1>\n";
   if (!report.lead.empty()) s += "<p class=\"soft\">" + escaped(report.lead) + "</p>\n";
   if (!report.figures.empty()) {
@@ -169,7 +180,8 @@ inline std::string report_html(const Report& report, const MissionRecord& record
 }
 
 /// The curves of one or several metrics over mission time, as far as they are finite.
-inline Plot metric_plot(const MissionRecord& record, std::string title, std::string unit, const std::vector<std::string>& metrics) {
+inline Plot metric_plot(const MissionRecord& record, std::string title, std::string unit,
+                        const std::vector<std::string>& metrics) {
   Plot plot{.title = std::move(title), .x_label = "mission time [s]", .y_label = std::move(unit), .curves = {}};
   for (const std::string& name : metrics) {
     Curve& c = plot.curves.emplace_back();

@@ -25,7 +25,8 @@ class Pattern {
     return {};
   }
   /// The whole sequence, in order.
-  [[nodiscard]] const std::vector<View>& views() const { return views_; }
+  [[nodiscard]] const std::vector<View>& views() const& { return views_; }
+  [[nodiscard]] std::vector<View> views() && { return std::move(views_); }  // so that `for (v : Spiral(...).views())` works
 
  protected:
   Pattern(std::vector<View> views, double reached_m) : views_(std::move(views)), reached_m_(reached_m) {}

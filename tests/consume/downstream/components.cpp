@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 
-// The optional components, as somebody else's program uses them: a simulated field, a file of it, a record of the mission.
+// The optional components, as somebody else's program uses them: a simulated field, a file of it, a record of the
+// mission.
 #include <cstdio>
 
 #include <vantage/io/npy.hpp>

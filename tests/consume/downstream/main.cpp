@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 
-// Somebody else's program: vantage's map at a size of its own (cells that split 3 x 3), in vantage's loop, with a utility, a
-// sampler and a world of its own.
+// Somebody else's program: vantage's map at a size of its own (cells that split 3 x 3), in vantage's loop, with a
+// utility, a sampler and a world of its own.
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -41,7 +41,8 @@ struct Slope {
     vantage::FieldImage image{view, sensor.footprint(view), {}};
     image.values.resize(sensor.pixels, sensor.pixels);
     for (int column = 0; column < sensor.pixels; ++column)
-      image.values.col(column).setConstant((image.footprint.min().x() + image.footprint.sizes().x() * (column + 0.5) / sensor.pixels) / 20);
+      image.values.col(column).setConstant(
+          (image.footprint.min().x() + image.footprint.sizes().x() * (column + 0.5) / sensor.pixels) / 20);
     return image;
   }
 };
@@ -58,6 +59,7 @@ int main() {
   const double before = error();
   Slope world;
   loop.run(world, vantage::nadir(10, 10, 1), {}, vantage::Measurements{30}, vantage::ModelledClock{}, vantage::Rng{7});
-  std::printf("vantage %s: %zu cells, mean error %.4f before, %.4f after\n", VANTAGE_VERSION, loop.map.size(), before, error());
+  std::printf("vantage %s: %zu cells, mean error %.4f before, %.4f after\n", VANTAGE_VERSION, loop.map.size(), before,
+              error());
   return loop.map.size() == 81 && error() < before / 4 ? 0 : 1;
 }

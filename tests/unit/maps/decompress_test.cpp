@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <vantage/maps/field/decompress.hpp>
+#include <vantage/maps/field/latent.hpp>
 #include <vantage/maps/field/matern.hpp>
 #include <vantage/maps/field/methods.hpp>
 #include <vantage/sim/random_field.hpp>
@@ -32,21 +33,10 @@ Map mapped(int depth, double threshold = 0.7, std::size_t steps = 16) {
   return map;
 }
 
-// A belief that gives its covariance as one matrix.
-struct Whole : Full<> {
-  using Full<>::Full;
-  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
-    const auto n = static_cast<Eigen::Index>(tree.size());
-    return Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
-      return covariance(static_cast<std::size_t>(i), static_cast<std::size_t>(j));
-    });
-  }
-};
-
 template <class M>
 struct Decompress : testing::Test {};
 using Reference = preset::reference;
-using Maps = testing::Types<Ours<Reference>, Ours<Reference, Whole>,
+using Maps = testing::Types<Ours<Reference>, Ours<Reference, Latent<>>,
                             Ours<Reference, Full<>, detail::AboveThreshold<Reference>, Matern32>>;
 TYPED_TEST_SUITE(Decompress, Maps);
 

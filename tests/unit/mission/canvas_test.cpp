@@ -92,7 +92,8 @@ TEST(Canvas, RefusesWhatIsNoPicture) {
   EXPECT_THROW(Canvas(ground, 1 << 20), Error);
   EXPECT_THROW(Canvas(Box2(), 100), Error);
   EXPECT_THROW(Canvas(Box2(Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 1)), 100), Error);
-  EXPECT_THROW(Canvas(Box2(Eigen::Vector2d(0, 0), Eigen::Vector2d(std::numeric_limits<double>::infinity(), 1)), 100), Error);
+  EXPECT_THROW(Canvas(Box2(Eigen::Vector2d(0, 0), Eigen::Vector2d(std::numeric_limits<double>::infinity(), 1)), 100),
+               Error);
 }
 
 }  // namespace

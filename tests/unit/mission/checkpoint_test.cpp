@@ -49,9 +49,7 @@ TEST(Checkpoint, AnInterruptedMissionEndsInTheSameBytes) {
     Checkpoint checkpoint(CheckpointConfig{.file = folder.path / "part"}, part.recorder);
     parts += checkpoint.load(part.loop, part.world, part.clock, part.state);
     part.run(until_s, checkpoint);
-    if (until_s == 80.0) {
-      EXPECT_EQ(part.bytes(), whole.bytes());
-    }
+    if (until_s == 80.0) { EXPECT_EQ(part.bytes(), whole.bytes()); }
   }
   EXPECT_EQ(parts, 4);  // the first process measured nothing, so that the second found no file
   EXPECT_GT(whole.state.visited.size(), 10u);
@@ -88,9 +86,7 @@ struct Other : Plain {};
 std::string refusal(std::span<const std::byte> bytes, Plain& a, Plain& b) {
   try {
     restore_checkpoint(bytes, "file", a, b);
-  } catch (const Error& e) {
-    return e.what();
-  }
+  } catch (const Error& e) { return e.what(); }
   return "accepted";
 }
 
@@ -148,7 +144,8 @@ TEST(Checkpoint, SurvivesHostileSizes) {
   const std::vector<std::byte> bytes = checkpoint_bytes(Plain{1}, Plain{2});
   Plain a{7}, b{8};
   for (std::size_t at = 0; at + 8 < bytes.size(); ++at)
-    for (const std::uint64_t size : {std::uint64_t{0}, std::uint64_t{1} << 40, ~std::uint64_t{0}, (~std::uint64_t{0}) / 8}) {
+    for (const std::uint64_t size :
+         {std::uint64_t{0}, std::uint64_t{1} << 40, ~std::uint64_t{0}, (~std::uint64_t{0}) / 8}) {
       std::vector<std::byte> hostile = bytes;
       std::memcpy(hostile.data() + at, &size, std::min<std::size_t>(8, hostile.size() - 8 - at));
       hostile = signed_again(hostile);

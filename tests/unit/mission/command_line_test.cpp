@@ -52,8 +52,9 @@ TEST(CommandLine, Defaults) {
 }
 
 TEST(CommandLine, ReadsEveryOption) {
-  const Result r = run({"--out", "a/b", "--seed", "11", "--threads", "2", "--method", "random", "--preset", "reference", "--clock",
-                        "modelled", "--budget", "300.5", "--measurements", "16", "--travel", "80", "--resume"});
+  const Result r =
+      run({"--out", "a/b", "--seed", "11", "--threads", "2", "--method", "random", "--preset", "reference", "--clock",
+           "modelled", "--budget", "300.5", "--measurements", "16", "--travel", "80", "--resume"});
   EXPECT_EQ(r.code, 0) << r.err;
   EXPECT_EQ(r.options.out, "a/b");
   EXPECT_EQ(r.options.seed, 11u);
@@ -68,12 +69,25 @@ TEST(CommandLine, ReadsEveryOption) {
 }
 
 TEST(CommandLine, BadUsageIsOneLineAndExitCodeTwo) {
-  const std::vector<std::vector<const char*>> bad = {
-      {"--method", "magic"}, {"--clock", "sundial"}, {"--preset", "mine"},   {"--budget", "0"},  {"--budget", "-5"},
-      {"--budget", "nan"},   {"--budget", "inf"},    {"--budget", "12s"},    {"--budget", ""},   {"--measurements", "0"},
-      {"--measurements", "-1"}, {"--travel", "0"},   {"--threads", "-1"},    {"--threads", "x"}, {"--seed", "x"},
-      {"--seed", "-1"},
-      {"--seed"},            {"--unknown"},          {"stray"}};
+  const std::vector<std::vector<const char*>> bad = {{"--method", "magic"},
+                                                     {"--clock", "sundial"},
+                                                     {"--preset", "mine"},
+                                                     {"--budget", "0"},
+                                                     {"--budget", "-5"},
+                                                     {"--budget", "nan"},
+                                                     {"--budget", "inf"},
+                                                     {"--budget", "12s"},
+                                                     {"--budget", ""},
+                                                     {"--measurements", "0"},
+                                                     {"--measurements", "-1"},
+                                                     {"--travel", "0"},
+                                                     {"--threads", "-1"},
+                                                     {"--threads", "x"},
+                                                     {"--seed", "x"},
+                                                     {"--seed", "-1"},
+                                                     {"--seed"},
+                                                     {"--unknown"},
+                                                     {"stray"}};
   for (const auto& words : bad) {
     bool ran = false;
     const Result r = run(words, [&] { ran = true; });
@@ -83,7 +97,9 @@ TEST(CommandLine, BadUsageIsOneLineAndExitCodeTwo) {
     EXPECT_EQ(r.out, "") << what;
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r.err;
     EXPECT_EQ(r.err.find("toy: "), 0u) << r.err;
-    EXPECT_NE(r.err.find(words[0][0] == '-' && words[0] != std::string("--unknown") ? words[0] : words.back()), std::string::npos) << r.err;
+    EXPECT_NE(r.err.find(words[0][0] == '-' && words[0] != std::string("--unknown") ? words[0] : words.back()),
+              std::string::npos)
+        << r.err;
   }
 }
 
@@ -99,8 +115,8 @@ TEST(CommandLine, HelpAndVersionAndMethodsEndWell) {
   EXPECT_EQ(run({"--version"}).out, "vantage " VANTAGE_VERSION "\n");
   EXPECT_EQ(run({"--list-methods"}).out, "ours    the best one\nrandom  a baseline\n");
   const std::string help = run({"--help"}).out;
-  for (const char* option : {"--out", "--seed", "--threads", "--clock", "--preset", "--method", "--list-methods", "--budget",
-                             "--measurements", "--travel", "--resume", "out/toy", "real", "thesis"})
+  for (const char* option : {"--out", "--seed", "--threads", "--clock", "--preset", "--method", "--list-methods",
+                             "--budget", "--measurements", "--travel", "--resume", "out/toy", "real", "thesis"})
     EXPECT_NE(help.find(option), std::string::npos) << option;
   EXPECT_EQ(help.find("->"), std::string::npos) << help;  // no enumerators behind the names
 }
@@ -108,7 +124,8 @@ TEST(CommandLine, HelpAndVersionAndMethodsEndWell) {
 TEST(CommandLine, ExitCodes) {
   const auto result_of = [](auto f) { return run({}, f); };
   EXPECT_EQ(result_of([] { throw Error("field.csv:3", "x = nan", "finite"); }).code, 2);
-  EXPECT_EQ(result_of([] { throw Error("field.csv:3", "x = nan", "finite"); }).err, "toy: field.csv:3: x = nan; expected finite\n");
+  EXPECT_EQ(result_of([] { throw Error("field.csv:3", "x = nan", "finite"); }).err,
+            "toy: field.csv:3: x = nan; expected finite\n");
   EXPECT_EQ(result_of([] { throw std::runtime_error("two\nlines\n"); }).code, 1);
   EXPECT_EQ(result_of([] { throw std::runtime_error("two\nlines\n"); }).err, "toy: two lines\n");
   EXPECT_EQ(result_of([] { throw std::bad_alloc(); }).err, "toy: out of memory\n");

@@ -32,7 +32,8 @@ TEST(Palette, LightnessRisesEvenly) {
   for (const Palette palette : {plum, viridis}) {
     const std::vector<Rgb> c = colours_of(palette, 33);
     const double step = (lightness(c.back()) - lightness(c.front())) / 32;
-    for (std::size_t i = 1; i < c.size(); ++i) EXPECT_NEAR(lightness(c[i]) - lightness(c[i - 1]), step, 0.6 * step) << i;
+    for (std::size_t i = 1; i < c.size(); ++i)
+      EXPECT_NEAR(lightness(c[i]) - lightness(c[i - 1]), step, 0.6 * step) << i;
   }
 }
 
@@ -47,7 +48,8 @@ TEST(Palette, StepsLookAlike) {
 }
 
 TEST(Palette, ErrorsAreSymmetric) {
-  for (const double d : {0.0, 0.1, 0.25, 0.5}) EXPECT_NEAR(lightness(blue_white_red(0.5 - d)), lightness(blue_white_red(0.5 + d)), 0.01);
+  for (const double d : {0.0, 0.1, 0.25, 0.5})
+    EXPECT_NEAR(lightness(blue_white_red(0.5 - d)), lightness(blue_white_red(0.5 + d)), 0.01);
   const Rgb low = blue_white_red(0), middle = blue_white_red(0.5), high = blue_white_red(1);
   EXPECT_GT(low[2], low[0]);
   EXPECT_GT(high[0], high[2]);

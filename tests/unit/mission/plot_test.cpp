@@ -22,9 +22,13 @@ using toy::between, toy::count;
 void expect_balanced(const std::string& svg) { EXPECT_EQ(toy::unbalanced(svg), "") << svg; }
 
 Plot two_curves() {
-  return {.title = "Error & <more>", .x_label = "time [s]", .y_label = "m",
-          .curves = {{.name = "ours", .x = {0, 10, 20, 30}, .y = {4, 2, nan, 1}, .low = {3, 1, nan, 0}, .high = {5, 3, nan, 2}},
-                     {.name = "\"theirs\"", .x = {0, 15, 30}, .y = {4, 3, 2}}}};
+  return {
+      .title = "Error & <more>",
+      .x_label = "time [s]",
+      .y_label = "m",
+      .curves = {
+          {.name = "ours", .x = {0, 10, 20, 30}, .y = {4, 2, nan, 1}, .low = {3, 1, nan, 0}, .high = {5, 3, nan, 2}},
+          {.name = "\"theirs\"", .x = {0, 15, 30}, .y = {4, 3, 2}}}};
 }
 
 TEST(Plot, DrawsEveryKnownPoint) {
@@ -75,13 +79,18 @@ TEST(Plot, TicksAreRoundAndCover) {
 }
 
 TEST(Plot, DrawsWhatHasNoExtent) {
-  for (const Plot& plot : {Plot{.title = "none", .x_label = "", .y_label = "", .curves = {}},
-                           Plot{.title = "empty", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {}, .y = {}}}},
-                           Plot{.title = "unknown", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {nan, nan}}}},
-                           Plot{.title = "one point", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {3}, .y = {5}}}},
-                           Plot{.title = "flat zero", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {0, 0}}}},
-                           Plot{.title = "flat", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {-7, -7}}}},
-                           Plot{.title = "tiny on huge", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {1e15, 1e15 + 0.125}}}, .from_zero = false}}) {
+  for (const Plot& plot :
+       {Plot{.title = "none", .x_label = "", .y_label = "", .curves = {}},
+        Plot{.title = "empty", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {}, .y = {}}}},
+        Plot{.title = "unknown", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {nan, nan}}}},
+        Plot{.title = "one point", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {3}, .y = {5}}}},
+        Plot{.title = "flat zero", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {0, 0}}}},
+        Plot{.title = "flat", .x_label = "", .y_label = "", .curves = {{.name = "a", .x = {0, 1}, .y = {-7, -7}}}},
+        Plot{.title = "tiny on huge",
+        .x_label = "",
+        .y_label = "",
+        .curves = {{.name = "a", .x = {0, 1}, .y = {1e15, 1e15 + 0.125}}},
+        .from_zero = false}}) {
     const std::string svg = svg_document(plot);
     expect_balanced(svg);
     EXPECT_EQ(svg.find("nan"), svg.npos) << svg;

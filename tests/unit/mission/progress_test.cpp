@@ -38,7 +38,9 @@ struct Terminal {
 };
 
 std::string run(const ProgressConfig& config) {
-  Recorder recorder(RecorderConfig{}, [](const toy::ToyMap& map) { return std::vector<Metric>{{"variance", map.total_variance()}}; });
+  Recorder recorder(RecorderConfig{}, [](const toy::ToyMap& map) {
+    return std::vector<Metric>{{"variance", map.total_variance()}};
+  });
   std::ostringstream out;
   Progress progress(recorder.record(), out, config);
   auto loop = toy::toy_loop();
@@ -90,9 +92,7 @@ TEST(Progress, OneLineOnATerminalNeverWiderThanIt) {
       for (const std::string& draw : draws) EXPECT_LT(columns_of(draw), columns) << draw;
       EXPECT_NE(draws.back().find("100 %"), std::string::npos);
       EXPECT_EQ(draws.back().find(utf8 ? "━━━━━" : "#####"), 0u) << draws.back();
-      if (columns == 200) {
-        EXPECT_NE(draws[2].find("left 0:0"), std::string::npos);
-      }
+      if (columns == 200) { EXPECT_NE(draws[2].find("left 0:0"), std::string::npos); }
     }
   }
 }

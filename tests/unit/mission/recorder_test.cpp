@@ -16,14 +16,13 @@ namespace {
 using namespace vantage;
 
 constexpr auto metrics = [](const toy::ToyMap& map) {
-  return std::vector<Metric>{{"variance", map.total_variance()}, {"undefined", std::numeric_limits<double>::quiet_NaN()}};
+  return std::vector<Metric>{{"variance", map.total_variance()},
+                             {"undefined", std::numeric_limits<double>::quiet_NaN()}};
 };
 using Metrics = std::remove_const_t<decltype(metrics)>;
 using Json = nlohmann::ordered_json;
 
-Json parsed(const std::filesystem::path& file) {
-  return Json::parse(read_file(file, std::size_t{1} << 30));
-}
+Json parsed(const std::filesystem::path& file) { return Json::parse(read_file(file, std::size_t{1} << 30)); }
 
 RecorderConfig config_in(const toy::Folder& folder) {
   return {.file = folder.path / "mission.json", .config = {{"resolution", 8}, {"method", "toy"}}, .seed = 5};

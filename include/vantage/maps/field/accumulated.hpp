@@ -191,7 +191,7 @@ class Accumulated {
       dense::add_gram<double>(k_, w, -1.0);
       k_.template triangularView<Eigen::StrictlyUpper>() = k_.transpose();
     }
-    void prepare() {
+    void prepare(std::span<const CellMeasurements>) {
       m_.setZero(k_.rows(), k_.cols());
       dense::add_gram<double>(m_, Eigen::MatrixXd(k_(target_, Eigen::all)), 1.0);
       m_.template triangularView<Eigen::StrictlyUpper>() = m_.transpose();

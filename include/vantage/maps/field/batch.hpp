@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <Eigen/Core>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -13,7 +14,9 @@
 namespace vantage {
 
 /// Gaussian-process regression on all measurements, exact. When cells merge, their measurements are replaced by one of
-/// the merged cell: the mean, weighted by area, with the noise variance of such a mean.
+/// the merged cell: the mean, weighted by area, with the noise variance of such a mean. A template only so that
+/// programs which do not use it need not compile it.
+template <std::same_as<double> T = double>
 struct ExactRegression {
   static constexpr std::string_view name = "batch";
   static constexpr bool infers_after_merge = false;
@@ -24,15 +27,15 @@ struct ExactRegression {
     return regress(prior.covariance(h.cell), prior, prior_mean, h, cells, jitter);
   }
   /// The same for any covariance of the measured values (without noise, lower triangle).
-  static CellPosterior regress(Eigen::MatrixXd s, const NodePrior& prior, double prior_mean,
+  static CellPosterior regress(dense::Matrix<T> s, const NodePrior& prior, double prior_mean,
                                const MeasurementHistory& h, std::span<const NdTree::Leaf> cells, double jitter) {
     s.diagonal().array() += h.noise_variance.array() + jitter;
-    dense::cholesky<double>(s, "Accumulated::fuse");
+    dense::cholesky<T>(s, "Accumulated::fuse");
     CellPosterior p;
     p.root = prior.covariance(h.cell, cells);
-    dense::solve_lower<double>(s, p.root);
-    Eigen::VectorXd g = h.value.array() - prior_mean;
-    s.triangularView<Eigen::Lower>().solveInPlace(g);
+    dense::solve_lower<T>(s, p.root);
+    Eigen::VectorX<T> g = h.value.array() - prior_mean;
+    s.template triangularView<Eigen::Lower>().solveInPlace(g);
     p.mean = (p.root.transpose() * g).array() + prior_mean;
     return p;
   }
@@ -82,6 +85,6 @@ struct ExactRegression {
 
 /// The belief of AR-GPR-IK (section 3.2.1, after Reid et al.): regression with the integral kernel on all measurements,
 /// from scratch after every update. The same posterior as Full until cells merge.
-using Batch = Accumulated<ExactRegression>;
+using Batch = Accumulated<ExactRegression<>>;
 
 }  // namespace vantage

@@ -3,6 +3,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -29,17 +30,20 @@ namespace vantage {
 /// whose measurements covary exactly within a batch, and across batches only through the cells, A_i^T A_j
 /// (Quinonero-Candela & Rasmussen, JMLR 6, 2005, section 6: transductive PITC). Exact where the measured cells are
 /// among the queried ones; what is lost is what pruned cells cannot carry from one batch to another.
+///
+/// A template only so that programs which do not use it need not compile it.
+template <std::same_as<double> T = double>
 struct CommitteeRegression {
   static constexpr std::string_view name = "committee";
   static constexpr bool infers_after_merge = true;  // the committee meets again over the new cells
 
   [[nodiscard]] CellPosterior infer(const NodePrior& prior, double prior_mean, const MeasurementHistory& h,
                                     std::span<const NdTree::Leaf> cells, double jitter) const {
-    if (h.batch_end.size() < 2) return ExactRegression{}.infer(prior, prior_mean, h, cells, jitter);
-    Eigen::MatrixXd l = prior.covariance(cells);
+    if (h.batch_end.size() < 2) return ExactRegression<T>{}.infer(prior, prior_mean, h, cells, jitter);
+    dense::Matrix<T> l = prior.covariance(cells);
     l.diagonal().array() += jitter;
-    dense::cholesky<double>(l, "Committee");
-    Eigen::MatrixXd a = prior.covariance(cells, h.cell);
+    dense::cholesky<T>(l, "Committee");
+    dense::Matrix<T> a = prior.covariance(cells, h.cell);
     forward(l, a);
     return h.size() < cells.size() ? by_measurements(a, prior, prior_mean, h, cells, jitter)
                                    : by_cells(l, a, prior, prior_mean, h, jitter);
@@ -59,20 +63,20 @@ struct CommitteeRegression {
     }
   }
   // a <- l^-1 a, in narrower tiles than dense::solve_lower: a batch is a few hundred columns.
-  static void forward(const Eigen::MatrixXd& l, Eigen::MatrixXd& a) {
+  static void forward(const dense::Matrix<T>& l, dense::Matrix<T>& a) {
     dense::for_tiles(
         a.cols(),
         [&](Eigen::Index j, Eigen::Index count) {
           auto columns = a.middleCols(j, count);
-          l.triangularView<Eigen::Lower>().solveInPlace(columns);
+          l.template triangularView<Eigen::Lower>().solveInPlace(columns);
         },
         128);
   }
 
-  static CellPosterior by_measurements(const Eigen::MatrixXd& a, const NodePrior& prior, double prior_mean,
+  static CellPosterior by_measurements(const dense::Matrix<T>& a, const NodePrior& prior, double prior_mean,
                                        const MeasurementHistory& h, std::span<const NdTree::Leaf> cells,
                                        double jitter) {
-    Eigen::MatrixXd s = prior.covariance(h.cell);
+    dense::Matrix<T> s = prior.covariance(h.cell);
     for_batches(h, [&](Eigen::Index b, Eigen::Index size) {  // the rows below this batch's own square
       const Eigen::Index first = b + size;
       dense::for_tiles(s.rows() - first, [&](Eigen::Index i, Eigen::Index count) {
@@ -80,35 +84,35 @@ struct CommitteeRegression {
             a.middleCols(first + i, count).transpose() * a.middleCols(b, size);
       });
     });
-    return ExactRegression::regress(std::move(s), prior, prior_mean, h, cells, jitter);
+    return ExactRegression<T>::regress(std::move(s), prior, prior_mean, h, cells, jitter);
   }
 
-  static CellPosterior by_cells(const Eigen::MatrixXd& l, Eigen::MatrixXd& a, const NodePrior& prior, double prior_mean,
-                                const MeasurementHistory& h, double jitter) {
-    Eigen::MatrixXd z(a.cols(), a.rows());  // Z^T
-    Eigen::VectorXd e = h.value.array() - prior_mean;
+  static CellPosterior by_cells(const dense::Matrix<T>& l, dense::Matrix<T>& a, const NodePrior& prior,
+                                double prior_mean, const MeasurementHistory& h, double jitter) {
+    dense::Matrix<T> z(a.cols(), a.rows());  // Z^T
+    Eigen::VectorX<T> e = h.value.array() - prior_mean;
     for_batches(h, [&](Eigen::Index b, Eigen::Index size) {
       const auto ai = a.middleCols(b, size);
-      Eigen::MatrixXd f =
+      dense::Matrix<T> f =
           prior.covariance(std::span(h.cell).subspan(static_cast<std::size_t>(b), static_cast<std::size_t>(size)));
       f.diagonal().array() += h.noise_variance.segment(b, size).array() + jitter;
-      dense::add_gram<double>(f, ai, -1.0);
-      dense::cholesky<double>(f, "Committee");
+      dense::add_gram<T>(f, ai, -1.0);
+      dense::cholesky<T>(f, "Committee");
       auto zi = z.middleRows(b, size);
       zi = ai.transpose();
-      dense::solve_lower<double>(f, zi);
+      dense::solve_lower<T>(f, zi);
       auto ei = e.segment(b, size);
-      f.triangularView<Eigen::Lower>().solveInPlace(ei);
+      f.template triangularView<Eigen::Lower>().solveInPlace(ei);
     });
-    Eigen::MatrixXd u = Eigen::MatrixXd::Identity(l.rows(), l.cols());
-    dense::add_gram<double>(u, z, 1.0);
-    dense::cholesky<double>(u, "Committee");
-    Eigen::VectorXd g = z.transpose() * e;
-    u.triangularView<Eigen::Lower>().solveInPlace(g);
+    dense::Matrix<T> u = dense::Matrix<T>::Identity(l.rows(), l.cols());
+    dense::add_gram<T>(u, z, 1.0);
+    dense::cholesky<T>(u, "Committee");
+    Eigen::VectorX<T> g = z.transpose() * e;
+    u.template triangularView<Eigen::Lower>().solveInPlace(g);
     CellPosterior p;
     p.reduces_prior = false;
-    p.root = Eigen::MatrixXd(l.triangularView<Eigen::Lower>()).transpose();
-    dense::solve_lower<double>(u, p.root);
+    p.root = dense::Matrix<T>(l.template triangularView<Eigen::Lower>()).transpose();
+    dense::solve_lower<T>(u, p.root);
     p.mean = (p.root.transpose() * g).array() + prior_mean;
     return p;
   }
@@ -116,6 +120,6 @@ struct CommitteeRegression {
 
 /// The belief of AR-BCM (section 3.2.1, after Wang et al.), best with CellCentre: queries are the centres of the tree's
 /// leaves, and a parent's centre replaces those of its uninteresting children.
-using Committee = Accumulated<CommitteeRegression>;
+using Committee = Accumulated<CommitteeRegression<>>;
 
 }  // namespace vantage

@@ -102,7 +102,7 @@ Decompressed decompress(const IntegralGp<Kernel, Cells, Belief, Resolution, Sens
   constexpr bool whole = requires { map.belief().covariance_matrix(map.tree()); };
   static_assert(
       whole || requires { map.belief().covariance(std::size_t{}, std::size_t{}); },
-      "decompress: the map's belief must say how cells covary: Full has covariance(i, j), Diagonal has not");
+      "decompress: the map's belief must say how cells covary: Full and Latent do, Diagonal does not");
   Check check("decompress");
   check(jitter > 0 && jitter <= 1e-3, "jitter", jitter, "0 (excluded) to 1e-3");
   check.done();

@@ -71,7 +71,7 @@ class Diagonal {
     void given(const CellMeasurements& z) {
       for (std::size_t k = 0; k < z.cells.size(); ++k) variance_[at(z, k)] -= loss(z, k);
     }
-    void prepare() {}
+    void prepare(std::span<const CellMeasurements>) {}
     [[nodiscard]] double reduction(const CellMeasurements& z) const {
       double sum = 0;
       for (std::size_t k = 0; k < z.cells.size(); ++k)

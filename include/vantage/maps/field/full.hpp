@@ -223,7 +223,7 @@ class Full {
       }
       dense::add_gram<T>(own_.map(), w, T(-1));
     }
-    void prepare() {
+    void prepare(std::span<const CellMeasurements>) {
       m_ = LargeMatrix<T>(k_->rows(), k_->cols());
       if (!target_.empty()) dense::add_gram<T>(m_.map(), rows(*k_, target_), T(1));
     }
@@ -266,23 +266,20 @@ class Full {
  private:
   using Index = Eigen::Index;
 
-  // K[cells, :] as an l x n matrix, from the lower triangle; cells ascend. By tiles, so that the strided half stays in
-  // cache.
+  // K[cells, :] as an l x n matrix, from the lower triangle. Eight rows at a time, so that a column's eight numbers are
+  // one line of the cache to write, whichever way they are read.
   static dense::Matrix<T> rows(const LargeMatrix<T>& k, std::span<const std::size_t> cells) {
     const auto l = static_cast<Index>(cells.size());
     dense::Matrix<T> g(l, k.cols());
     dense::for_tiles(
         k.cols(),
         [&](Index begin, Index count) {
-          for (Index a = 0; a < l; ++a) {
-            const auto c = static_cast<Index>(cells[static_cast<std::size_t>(a)]);
-            const Index split = std::clamp<Index>(c, begin, begin + count);
-            for (Index i = split; i < begin + count; ++i) g(a, i) = k(i, c);
-          }
-          for (Index i = begin; i < begin + count; ++i) {
-            const auto from = std::upper_bound(cells.begin(), cells.end(), static_cast<std::size_t>(i));
-            for (auto c = from; c != cells.end(); ++c) g(c - cells.begin(), i) = k(static_cast<Index>(*c), i);
-          }
+          for (Index first = 0; first < l; first += 8)
+            for (Index i = begin; i < begin + count; ++i)
+              for (Index a = first; a < std::min(l, first + 8); ++a) {
+                const auto c = static_cast<Index>(cells[static_cast<std::size_t>(a)]);
+                g(a, i) = k(std::max(i, c), std::min(i, c));
+              }
         },
         64);
     return g;

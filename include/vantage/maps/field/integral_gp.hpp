@@ -104,11 +104,11 @@ class IntegralGp {
     for (std::size_t i = 0; i < size(); ++i) target[i] = !tree_[i].blank && interest().target(mean(i), variance(i));
     typename Belief::Forecaster forecaster(belief_, tree_, target);
     for (const View& v : given) forecaster.given(covered(v));
-    forecaster.prepare();
     std::vector<CellMeasurements> z(views.size());
     parallel_for_blocks(views.size(), 16, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) z[i] = covered(views[i]);
     });
+    forecaster.prepare(z);
     std::vector<std::size_t> order(views.size());  // the largest first, so that no thread ends with the long ones
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),

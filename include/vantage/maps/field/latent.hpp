@@ -154,6 +154,20 @@ class Latent {
     basis_.row(tree[j], b);
     return a.dot(product(covariance_, b).col(0));
   }
+  /// Posterior covariance of all leaves. n r (n + r) flops for n leaves.
+  [[nodiscard]] Eigen::MatrixXd covariance_matrix(const NdTree& tree) const {
+    const auto n = static_cast<Index>(tree.size());
+    dense::Matrix<T> phi(basis_.rank, n);
+    for (Index i = 0; i < n; ++i) basis_.row(tree[static_cast<std::size_t>(i)], phi.col(i));
+    dense::Matrix<T> p = dense::Matrix<T>::Zero(n, n);
+    dense::for_tiles(
+        n,
+        [&](Index begin, Index count) {
+          dense::add_tn<T>(p.middleCols(begin, count), phi, product(covariance_, phi.middleCols(begin, count)), 1);
+        },
+        64);
+    return p;
+  }
   [[nodiscard]] std::vector<double> parent_variances(std::span<const ParentCell> parents,
                                                      std::span<const double>) const {
     std::vector<double> out(parents.size());
@@ -283,32 +297,62 @@ class Latent {
     void given(const CellMeasurements& z) {
       if (!z.cells.empty()) state_.add(belief_->basis_, *tree_, z, Eigen::VectorX<T>::Zero(z.noise_variance.size()));
     }
-    void prepare() {
+    /// Computes once what the candidates share; those of fewer cells than coordinates, C Phi and C Q C Phi of every
+    /// cell that one of them sees.
+    void prepare(std::span<const CellMeasurements> candidates) {
       covariance_ = inverse(state_.information);
-      middle_ = product(covariance_, product(target_, covariance_));
       before_ = covariance_.cwiseProduct(target_).sum();
+      std::vector<std::size_t> seen;
+      column_.assign(tree_->size(), -1);
+      for (const CellMeasurements& z : candidates)
+        if (few(z))
+          for (const std::size_t i : z.cells)
+            if (column_[i] < 0) {
+              column_[i] = static_cast<Index>(seen.size());
+              seen.push_back(i);
+            }
+      const dense::Matrix<T> middle = product(covariance_, product(target_, covariance_));
+      phi_.resize(belief_->rank(), static_cast<Index>(seen.size()));
+      c_phi_.setZero(phi_.rows(), phi_.cols());
+      m_phi_.setZero(phi_.rows(), phi_.cols());
+      dense::for_tiles(
+          phi_.cols(),
+          [&](Index begin, Index count) {
+            for (Index k = begin; k < begin + count; ++k)
+              belief_->basis_.row((*tree_)[seen[static_cast<std::size_t>(k)]], phi_.col(k));
+            const auto phi = phi_.middleCols(begin, count);
+            dense::add_tn<T>(c_phi_.middleCols(begin, count), covariance_, phi, 1);
+            dense::add_tn<T>(m_phi_.middleCols(begin, count), middle, phi, 1);
+          },
+          64);
     }
     [[nodiscard]] double reduction(const CellMeasurements& z) const {
       if (z.cells.empty()) return 0;
-      const auto l = static_cast<Index>(z.cells.size());
-      if (l >= belief_->rank()) {
+      if (!few(z)) {
         State after = state_;
-        after.add(belief_->basis_, *tree_, z, Eigen::VectorX<T>::Zero(l));
+        after.add(belief_->basis_, *tree_, z, Eigen::VectorX<T>::Zero(z.noise_variance.size()));
         return before_ - inverse(after.information).cwiseProduct(target_).sum();
       }
-      dense::Matrix<T> phi(belief_->rank(), l);
-      for (Index k = 0; k < l; ++k) belief_->basis_.row((*tree_)[z.cells[static_cast<std::size_t>(k)]], phi.col(k));
-      dense::Matrix<T> s = product(phi, product(covariance_, phi));
+      std::vector<Index> at;
+      for (const std::size_t i : z.cells) at.push_back(column_[i]);
+      const dense::Matrix<T> phi = phi_(Eigen::all, at);
+      dense::Matrix<T> s = lower_product(phi, c_phi_(Eigen::all, at));
       s.diagonal() += z.noise_variance;
-      return detail::trace_of_quotient<T>(s, product(phi, product(middle_, phi)));
+      return detail::trace_of_quotient<T>(s, lower_product(phi, m_phi_(Eigen::all, at)));
     }
 
    private:
+    [[nodiscard]] bool few(const CellMeasurements& z) const {
+      return static_cast<Index>(z.cells.size()) < belief_->rank();
+    }
+
     const Latent* belief_;
     const NdTree* tree_;
     State state_;
-    dense::Matrix<T> target_, covariance_, middle_;
+    dense::Matrix<T> target_, covariance_;
     double before_ = 0;
+    std::vector<Index> column_;  // of a cell in the following, or -1
+    dense::Matrix<T> phi_, c_phi_, m_phi_;
   };
 
  private:
@@ -324,6 +368,17 @@ class Latent {
   static dense::Matrix<T> product(const dense::ConstRef<T>& a, const dense::ConstRef<T>& b) {
     dense::Matrix<T> c = dense::Matrix<T>::Zero(a.cols(), b.cols());
     dense::add_tn<T>(c, a, b, 1);
+    return c;
+  }
+  // A^T B, known to be symmetric: its lower triangle, by columns of tiles.
+  static dense::Matrix<T> lower_product(const dense::Matrix<T>& a, const dense::Matrix<T>& b) {
+    constexpr Index size = 64;
+    const Index n = a.cols();
+    dense::Matrix<T> c = dense::Matrix<T>::Zero(n, n);
+    for (Index j = 0; j < n; j += size) {
+      const Index nj = std::min(size, n - j);
+      dense::add_tn<T>(c.block(j, j, n - j, nj), a.rightCols(n - j), b.middleCols(j, nj), 1);
+    }
     return c;
   }
   static dense::Matrix<T> inverse(dense::Matrix<T> information) {

@@ -1,0 +1,2 @@
+# SPDX-FileCopyrightText: 2026 The vantage authors
+# SPDX-License-Identifier: MIT

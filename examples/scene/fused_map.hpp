@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include <vantage/core/rng.hpp>
+#include <vantage/eval/surface_coverage.hpp>
+#include <vantage/geometry/frame.hpp>
+#include <vantage/geometry/marching_cubes.hpp>
+#include <vantage/geometry/mesh_components.hpp>
+#include <vantage/geometry/tsdf.hpp>
+
+namespace scene {
+
+using namespace vantage;
+
+/// The map of a look-around: all depth fused, and which part of the true surface that was. It learns nothing that a
+/// utility could ask for; chapter 6's map does.
+class FusedMap {
+ public:
+  using Measurement = Frame;
+
+  FusedMap(const Tsdf::Config& config, std::optional<SurfaceCoverage> truth)
+      : volume_(config), truth_(std::move(truth)) {}
+
+  void integrate(const Frame& frame, Rng& rng) {
+    volume_.integrate(frame, rng);
+    if (truth_) truth_->add(frame);
+  }
+  [[nodiscard]] Box3 bounds() const { return volume_.bounds(); }
+  [[nodiscard]] const Tsdf& volume() const { return volume_; }
+  [[nodiscard]] const std::optional<SurfaceCoverage>& truth() const { return truth_; }
+  /// The surface so far, without the crumbs that noise makes.
+  [[nodiscard]] TriangleMesh mesh() const { return without_small_components(marching_cubes(volume_)); }
+
+ private:
+  Tsdf volume_;
+  std::optional<SurfaceCoverage> truth_;
+};
+
+}  // namespace scene

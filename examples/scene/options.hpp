@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <vantage/core/error.hpp>
+#include <vantage/core/units.hpp>
+#include <vantage/geometry/camera.hpp>
+#include <vantage/mission/command_line.hpp>
+
+namespace scene {
+
+using namespace vantage;
+
+inline const std::vector<MethodName>& methods() {
+  static const std::vector<MethodName> list = {
+      {"max_view_distance", "the view farthest from all that were taken"},
+      {"random", "any view"},
+      {"in_order", "the views as they are listed: a recording as it was made"}};
+  return list;
+}
+
+struct Options : MissionOptions {
+  std::filesystem::path scene = {};                 ///< --scene: a folder, or a mesh
+  std::vector<std::filesystem::path> objects = {};  ///< --object: models on a ground plane
+  std::filesystem::path recording = {};             ///< --recording
+  std::optional<std::uint64_t> room = {};           ///< --room SEED: a procedural one
+  std::vector<double> start = {};                   ///< --start X Y Z
+  int pixels = 512;
+  double field_of_view_deg = 60;
+  double range_m = 5;
+  double depth_noise = 0.01;
+  double body_radius_m = 0.3;
+  double voxel_m = 0.02;
+  double threshold_m = 0.02;
+
+  Options() {
+    out = "out/scene";
+    method = "max_view_distance";
+    measurements = 40;
+  }
+  [[nodiscard]] Camera camera() const { return Camera::from_fov(pixels, pixels, deg(field_of_view_deg)); }
+};
+
+inline void add_options(CLI::App& app, Options& o) {
+  add_mission_options(app, o, methods());
+  app.add_option("--scene", o.scene, "Where to look around: a folder with a scene.json, or a mesh (OBJ, glTF, PLY)")
+      ->type_name("DIR|FILE");
+  app.add_option("--object", o.objects, "What to look at: models that are put on a ground plane, at random poses")
+      ->type_name("PATH...");
+  app.add_option("--recording", o.recording,
+                 "A recording instead of a simulation: TUM RGB-D, transforms.json, COLMAP text, or colour/ depth/ "
+                 "poses.txt camera.txt")
+      ->type_name("DIR");
+  app.add_option("--room", o.room, "A furnished room made from a seed")
+      ->check(vantage::detail::whole_number())
+      ->type_name("SEED");
+  app.add_option("--start", o.start, "Where the camera starts (default: where the scene says)")
+      ->expected(3)
+      ->type_name("X Y Z");
+  const auto number = [&](const char* name, double& value, const char* about, double low, double high,
+                          const char* unit) {
+    app.add_option(name, value, about)->check(CLI::Range(low, high))->capture_default_str()->type_name(unit);
+  };
+  app.add_option("--pixels", o.pixels, "Width and height of the simulated camera")
+      ->check(CLI::Range(16, 4096))
+      ->capture_default_str()
+      ->type_name("N");
+  number("--fov", o.field_of_view_deg, "Its field of view", 5, 150, "DEGREES");
+  number("--range", o.range_m, "Depths beyond have no value", 0.1, 1000, "METRES");
+  number("--depth-noise", o.depth_noise, "Standard deviation of a depth, as a share of it", 0, 1, "SHARE");
+  number("--body", o.body_radius_m, "Radius of the robot, which keeps so far from every surface", 0.01, 10, "METRES");
+  number("--voxel", o.voxel_m, "Voxels of the reconstruction", 0.001, 1, "METRES");
+  number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
+}
+
+/// Throws Error for options that contradict each other.
+inline void validate(const Options& o) {
+  const int inputs = !o.scene.empty() + !o.objects.empty() + !o.recording.empty() + o.room.has_value();
+  if (inputs > 1) throw Error("--scene, --object, --recording, --room", concat(inputs, " of them"), "one at most");
+  if (o.resume) throw Error("--resume", "a look-around keeps no checkpoint", "a run from the start");
+}
+
+}  // namespace scene

@@ -1,0 +1,139 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#include "results.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <vantage/concepts/channels.hpp>
+#include <vantage/io/write_glb.hpp>
+#include <vantage/io/write_ply.hpp>
+#include <vantage/mission/canvas.hpp>
+#include <vantage/mission/report.hpp>
+#include <vantage/sim/scene_renderer.hpp>
+
+namespace scene {
+
+std::vector<Metric> Judge::operator()(const FusedMap& map) const {
+  MeshMetrics m;
+  double coverage = std::numeric_limits<double>::quiet_NaN();
+  m.accuracy_m = m.completeness_m = m.precision = m.completeness = m.f1 = coverage;
+  if (map.truth()) {
+    coverage = map.truth()->coverage();
+    m = mesh_metrics(map.mesh(), input.scene->mesh, input.surface, {.threshold_m = threshold_m, .samples = 200'000},
+                     Rng(1));
+  }
+  return {{"coverage", coverage},       {"completeness", m.completeness},
+          {"precision", m.precision},   {"f1", m.f1},
+          {"accuracy_m", m.accuracy_m}, {"megabytes", static_cast<double>(map.volume().bytes()) / 1e6}};
+}
+
+namespace {
+
+/// From above: surface that was seen (grey) and that was not (red), the way and the views' directions.
+Picture plan(const Input& input, const FusedMap& map, const MissionRecord& record) {
+  Box2 area(input.bounds.min().head<2>(), input.bounds.max().head<2>());
+  for (const StepRecord& r : record.steps) area.extend(Eigen::Vector2d(r.view.position().head<2>()));
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.03 * area.sizes().maxCoeff());
+  Canvas canvas(Box2(area.min() - margin, area.max() + margin), 1000);
+  canvas.fill([](const Eigen::Vector2d&) { return Rgb{250, 250, 248}; });
+  if (map.truth()) {
+    const SurfaceSamples& surface = map.truth()->surface();
+    const double ceiling_m = input.bounds.max().z() - 0.3;
+    for (const bool seen : {true, false})
+      for (std::size_t i = 0; i < surface.size(); ++i) {
+        const Eigen::Vector3d p = surface.points[i].cast<double>();
+        if ((map.truth()->seen()[i] != 0) != seen || p.z() > ceiling_m || p.z() < input.bounds.min().z() + 0.1)
+          continue;
+        canvas.dot(p.head<2>(), 1.1, seen ? Rgb{120, 128, 136} : Rgb{214, 69, 61}, seen ? 0.25 : 0.6);
+      }
+  }
+  const auto spot = [&](std::size_t k) -> Eigen::Vector2d { return record.steps[k].view.position().head<2>(); };
+  for (std::size_t k = 1; k < record.steps.size(); ++k) canvas.line(spot(k - 1), spot(k), 1.6, {0, 114, 178}, 0.7);
+  for (std::size_t k = 0; k < record.steps.size(); ++k) {
+    const Eigen::Vector2d ahead = record.steps[k].view.forward().head<2>();
+    canvas.line(spot(k), spot(k) + 18 / canvas.px_per_m() * ahead, 2.4, {20, 20, 20}, 0.9);
+    canvas.dot(spot(k), k == 0 ? 7 : 4, k == 0 ? Rgb{20, 20, 20} : Rgb{0, 114, 178});
+  }
+  return canvas.picture();
+}
+
+/// What a camera would see of a mesh.
+Picture picture_of(const SceneRenderer& renderer, const View& view, const Camera& camera) {
+  Rendering<channel::Colour> seen;
+  renderer.render(view, camera, seen);
+  return to_picture(seen);
+}
+
+double tenths(double x) { return std::round(10 * x) / 10; }
+
+std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record) {
+  const StepRecord& last = record.steps.back();
+  const auto percent = [&](const char* metric) { return short_number(tenths(100 * last.metric(metric))); };
+  std::vector<KeyFigure> f;
+  if (!std::isnan(last.metric("coverage"))) {
+    const std::string near = concat("within ", short_number(100 * o.threshold_m), " cm");
+    f = {{"Coverage", percent("coverage"), "%", "of the surface that can be seen"},
+         {"Completeness", percent("completeness"), "%", near + " of the mesh"},
+         {"Precision", percent("precision"), "%", "of the mesh " + near},
+         {"Accuracy", short_number(tenths(1000 * last.metric("accuracy_m"))), "mm", "mean distance of the mesh"}};
+  }
+  f.push_back({"Views", short_number(static_cast<double>(last.index)), "",
+               short_number(tenths(last.travelled_m)) + " m between them"});
+  f.push_back({"Mission time", short_number(tenths(last.elapsed_s)), "s", "planning, mapping, travel"});
+  f.push_back({"Reconstruction", short_number(tenths(last.metric("megabytes"))), "MB",
+               concat("voxels of ", short_number(100 * o.voxel_m), " cm")});
+  return f;
+}
+
+}  // namespace
+
+void write_results(const Options& o, const Input& input, const FusedMap& map, const Album& album,
+                   const MissionRecord& record) {
+  const TriangleMesh mesh = map.mesh();
+  Report report{.title = "A look around: " + input.name};
+  report.lead =
+      concat("A camera", input.recording ? "'s recording" : "", " of ", input.name, ": ", record.steps.back().index,
+             " views, method ", o.method, ", fused into a mesh of ", mesh.triangles.size(), " triangles. ", input.note,
+             input.recording ? "" : " The way between two views is counted as a straight line.");
+  report.figures = key_figures(o, record);
+  const auto add = [&](const std::string& file, std::string title, std::string caption, const Picture& picture) {
+    std::vector<std::byte> png = encode_png(picture);
+    write_file(o.out / file, png);
+    report.pictures.push_back({std::move(title), std::move(caption), std::move(png)});
+  };
+  add("plan.png", "From above",
+      map.truth() ? "Grey surface was seen, red was not; a dot is a view, its tick the way it looks, black the start."
+                  : "A dot is a view, its tick the way it looks, black the first.",
+      plan(input, map, record));
+  if (mesh.empty()) {
+    report.lead += " No surface came of it.";
+  } else {
+    write_file(o.out / "mesh.ply", encode_ply(mesh));
+    write_file(o.out / "mesh.glb", encode_glb(mesh));
+    Scene reconstructed{.mesh = mesh, .uv = {}, .material = {}, .label = {}, .textures = {}, .notes = {}};
+    reconstructed.materials[0].colour.setOnes();
+    const SceneRenderer renderer(reconstructed, {.lighting = Lighting::none()});
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, album.strips().size()); ++i) {
+      const Album::Strip& s = album.strips()[i * (album.strips().size() - 1) / 2 % album.strips().size()];
+      add(concat("mesh_", s.index, ".png"), concat("The mesh from view ", s.index),
+          "What was reconstructed, as that camera would see it.", picture_of(renderer, s.view, s.camera));
+    }
+  }
+  for (const Album::Strip& s : album.strips())
+    add(concat("view_", s.index, ".png"), concat("View ", s.index),
+        "Colour, depth (bright is far) and class, as far as the sensor has them.", s.picture);
+  if (map.truth()) {
+    report.plots.push_back(
+        metric_plot(record, "Of the surface that can be seen", "share", {"coverage", "completeness", "precision"}));
+    report.plots.back().y_least_top = 1;
+    report.plots.push_back(metric_plot(record, "Mean distance of the mesh", "m", {"accuracy_m"}));
+  }
+  for (const std::string& word : o.command) report.command += (report.command.empty() ? "" : " ") + word;
+  write_file(o.out / "report.html", report_html(report, record));
+}
+
+}  // namespace scene

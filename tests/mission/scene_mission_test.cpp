@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include <vantage/io/ply.hpp>
+#include <vantage/io/recording_any.hpp>
+
+#include "mission_program.hpp"
+
+// The program examples/scene, as its users start it.
+namespace {
+
+using namespace vantage;
+
+class SceneMission : public MissionProgram {
+ protected:
+  SceneMission() : MissionProgram("scene") {}
+  [[nodiscard]] nlohmann::json mission(const std::string& name) const {
+    return nlohmann::json::parse(text_of(folder.path / name / "mission.json"));
+  }
+};
+
+const std::string quick = " --pixels 96 --fov 90 --measurements 5 --clock modelled --voxel 0.05 --threshold 0.05";
+
+TEST_F(SceneMission, LeavesWhatItPromises) {
+  const Ended e = run("--room 1" + quick + out("a"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  const auto a = folder.path / "a";
+  EXPECT_EQ(e.out, (a / "report.html").string() + "\n");
+
+  const auto json = mission("a");
+  EXPECT_EQ(json["stop_reason"], "stop_rule");
+  ASSERT_EQ(json["steps"].size(), 5u);
+  EXPECT_GT(json["steps"][1]["candidates"].get<int>(), 50);
+  const auto metric = [&](std::size_t step, const char* name) {
+    return json["steps"][step]["metrics"][name].get<double>();
+  };
+  for (std::size_t k = 1; k < 5; ++k) EXPECT_GE(metric(k, "coverage"), metric(k - 1, "coverage"));
+  EXPECT_GT(metric(4, "coverage"), metric(0, "coverage"));
+  EXPECT_GT(metric(4, "completeness"), 0.7 * metric(4, "coverage"));
+  EXPECT_LE(metric(4, "coverage"), 1);
+  EXPECT_GT(metric(4, "precision"), 0.5);
+  EXPECT_LT(metric(4, "accuracy_m"), 0.1);
+
+  const TriangleMesh mesh = read_ply_mesh(a / "mesh.ply");
+  EXPECT_GT(mesh.triangles.size(), 500u);
+  EXPECT_EQ(mesh.colours.size(), mesh.vertices.size());
+  EXPECT_EQ(text_of(a / "mesh.glb").substr(0, 4), "glTF");
+  for (const char* picture : {"plan.png", "view_1.png", "mesh_1.png"})
+    EXPECT_EQ(text_of(a / picture).substr(1, 3), "PNG") << picture;
+  EXPECT_NE(text_of(a / "report.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(SceneMission, TheSameSeedGivesTheSameBytesWithAnyThreads) {
+  ASSERT_EQ(run("--room 1 --threads 1" + quick + out("a")).code, 0);
+  ASSERT_EQ(run("--room 1 --threads 2" + quick + out("b")).code, 0);
+  ASSERT_EQ(run("--room 1 --seed 8" + quick + out("c")).code, 0);
+  for (const char* name : {"mission.json", "mesh.ply", "views/depth/0005.png", "views/colour/0005.png", "plan.png"})
+    EXPECT_EQ(text_of(folder.path / "a" / name), text_of(folder.path / "b" / name)) << name;
+  EXPECT_NE(text_of(folder.path / "a" / "mesh.ply"), text_of(folder.path / "c" / "mesh.ply"));
+}
+
+TEST_F(SceneMission, ItsViewsAreARecordingThatReplays) {
+  ASSERT_EQ(run("--room 1" + quick + out("a")).code, 0);
+  const auto views = folder.path / "a" / "views";
+  const Recording recording = read_recording(views);
+  ASSERT_EQ(recording.size(), 5u);
+  const Frame frame = recording.frame(0);
+  EXPECT_EQ(frame.camera.width, 96);
+  EXPECT_FALSE(frame.colour.empty());
+  EXPECT_GT(frame.labels.maxCoeff(), 0);
+
+  const Ended e = run("--recording '" + views.string() + "' --method in_order" + quick + out("b"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  const auto before = mission("a")["steps"], after = mission("b")["steps"];
+  ASSERT_EQ(after.size(), 5u);
+  EXPECT_EQ(after[4]["view"], before[4]["view"]);
+  const auto triangles = [&](const char* name) {
+    return static_cast<double>(read_ply_mesh(folder.path / name / "mesh.ply").triangles.size());
+  };
+  EXPECT_NEAR(triangles("b") / triangles("a"), 1, 0.1);  // depth was rounded
+}
+
+TEST_F(SceneMission, LooksAtObjectsFromAround) {
+  std::ofstream(folder.path / "brick.obj")
+      << "v 0 0 0\nv .5 0 0\nv .5 .3 0\nv 0 .3 0\nv 0 0 .2\nv .5 0 .2\nv .5 .3 .2\nv 0 .3 .2\n"
+         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const std::string brick = " '" + (folder.path / "brick.obj").string() + "'";
+  const Ended e = run("--object" + brick + brick + quick + " --voxel 0.02 --range 20" + out("a"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  EXPECT_GT(mission("a")["steps"][4]["metrics"]["coverage"].get<double>(), 0.8);
+}
+
+TEST_F(SceneMission, BadInputIsOneLineAndCodeTwo) {
+  const auto refused = [&](const std::string& arguments, const std::string& says) {
+    const Ended e = run(arguments + out("x"));
+    EXPECT_EQ(e.code, 2) << arguments;
+    EXPECT_NE(e.err.find(says), e.err.npos) << e.err;
+    EXPECT_EQ(std::count(e.err.begin(), e.err.end(), '\n'), 1) << e.err;
+  };
+  refused("--scene /no/such/scene", "/no/such/scene");
+  refused("--recording /no/such/recording", "/no/such/recording");
+  refused("--scene a --room 1", "one at most");
+  refused("--room 1 --start 0 0 -5", "start");
+  refused("--room 1 --resume", "--resume");
+  refused("--room 1 --method ours", "--method");
+  std::ofstream(folder.path / "empty.obj") << "v 0 0 0\n";
+  refused("--scene '" + (folder.path / "empty.obj").string() + "'", "empty.obj");
+}
+
+}  // namespace
