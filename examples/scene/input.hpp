@@ -149,18 +149,12 @@ inline Input load(const Options& o) {
   }
   if (!o.objects.empty()) {
     std::vector<Scene> models;
-    std::vector<SceneObject> objects;
     for (const std::filesystem::path& path : o.objects) models.push_back(read_scene(path));
-    for (const Scene& model : models) objects.push_back({.model = &model, .class_name = {}});
-    ObjectScene composed = object_scene(objects, Rng(o.seed).fork(13));
+    ObjectScene composed = compose_objects(models, Rng(o.seed).fork(13));
     input.name = concat(models.size(), models.size() == 1 ? " object" : " objects");
     input.note = "Models on a ground plane, at random places and headings.";
     input.scene = std::move(composed.scene);
-    Box3 box;
-    for (const Footprint& f : composed.footprints)
-      for (const Eigen::Vector2d& c : f.corners())
-        for (const double z : {0.0, input.scene->mesh.bounds().max().z()}) box.extend(Eigen::Vector3d(c.x(), c.y(), z));
-    look_from_around(input, box, o);
+    look_from_around(input, composed.bounds, o);
     return input;
   }
   const std::filesystem::path file = o.scene.empty() && !o.room ? default_scene() : o.scene;

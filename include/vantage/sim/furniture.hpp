@@ -298,7 +298,7 @@ inline const std::vector<Piece>& catalogue() {
                                             {"coffee table", {1.9, 1.2, 0.45}, false, detail::draw_coffee_table},
                                             {"bookcase", {1.1, 0.32, 1.95}, true, detail::draw_bookcase},
                                             {"cabinet", {1.5, 0.45, 1.4}, true, detail::draw_cabinet},
-                                            {"armchair", {0.85, 0.85, 0.8}, false, detail::draw_armchair},
+                                            {"armchair", {0.85, 0.85, 0.84}, false, detail::draw_armchair},
                                             {"lamp", {0.45, 0.45, 1.6}, false, detail::draw_lamp},
                                             {"plant", {0.7, 0.7, 1.25}, false, detail::draw_plant},
                                             {"desk", {1.4, 1.15, 1.3}, true, detail::draw_desk},

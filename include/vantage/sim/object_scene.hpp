@@ -23,19 +23,11 @@
 
 namespace vantage {
 
-/// A model to be placed: z up, any unit, anywhere.
-struct SceneObject {
-  const Scene* model;      ///< outlives the call
-  std::string class_name;  ///< of all its triangles; empty: the model's own classes
-};
-
-/// The scenes of ch. 5 (and, with one object, ch. 4): inside of a cube of 3 m, seen from a hemisphere of 2 m around the
-/// origin.
 struct ObjectSceneConfig {
-  double area_m = 2.4;                        ///< side of the square on which objects stand; > 0
+  double area_m = 2.6;                        ///< side of the square around the origin in which objects stand; > 0
   double min_size_m = 0.6, max_size_m = 1.0;  ///< an object's longest side is uniform in between; > 0
   double margin_m = 0.05;                     ///< between footprints; >= 0
-  double ground_m = 3;                        ///< side of the textured ground; 0: none
+  double ground_m = 6;                        ///< side of the textured ground; 0: none
 
   void validate() const {
     Check check("ObjectSceneConfig");
@@ -48,14 +40,15 @@ struct ObjectSceneConfig {
   }
 };
 
+/// Objects on a ground plane, and where they stand.
 struct ObjectScene {
   Scene scene;
   std::vector<Footprint> footprints;  ///< of the objects, in the order given
+  Box3 bounds;                        ///< of all objects, without the ground
 };
 
-/// Adds a model, moved and scaled, to a scene. All its triangles become `class_name`; if that is empty, they keep their
-/// own classes, found by name. Expects valid scenes. O(triangles of both, if only one has vertex colours).
-inline void append(Scene& scene, const Scene& model, const Eigen::Affine3d& place, const std::string& class_name) {
+/// Adds a model, moved and scaled, to a scene; classes are joined by name. Expects valid scenes. O(triangles of both).
+inline void append(Scene& scene, const Scene& model, const Eigen::Affine3d& place) {
   const std::size_t old_vertices = scene.mesh.vertices.size(), old_triangles = scene.mesh.triangles.size();
   const std::size_t triangles = model.mesh.triangles.size(), all = old_triangles + triangles;
   const auto first_vertex = static_cast<std::uint32_t>(old_vertices);
@@ -89,32 +82,29 @@ inline void append(Scene& scene, const Scene& model, const Eigen::Affine3d& plac
   scene.textures.insert(scene.textures.end(), model.textures.begin(), model.textures.end());
 
   scene.label.resize(old_triangles, 0);
-  std::vector<std::uint16_t> class_of;  // the model's classes in the scene; unknown stays unknown
-  for (std::size_t i = 0; i < model.classes.size(); ++i)
-    class_of.push_back(!class_name.empty() ? scene.class_of(class_name)
-                       : i == 0            ? std::uint16_t{0}
-                                           : scene.class_of(model.classes[i]));
+  std::vector<std::uint16_t> class_of = {0};  // the model's classes in the scene; unknown stays unknown
+  for (std::size_t i = 1; i < model.classes.size(); ++i) class_of.push_back(scene.class_of(model.classes[i]));
   for (std::size_t i = 0; i < triangles; ++i) scene.label.push_back(class_of[model.label.empty() ? 0 : model.label[i]]);
+  for (const std::string& note : model.notes)
+    if (std::find(scene.notes.begin(), scene.notes.end(), note) == scene.notes.end()) scene.notes.push_back(note);
 }
 
-/// Objects at random places, sizes and headings on a ground plane (z = 0, class "ground") around the origin, none of
-/// whose footprints overlap: rejection, and once more from the start when there is no place left. A view on the
-/// hemisphere of 2 m is the start. Throws Error for a bad model, naming which, and if 100 starts do not suffice.
-/// O(triangles).
-inline ObjectScene object_scene(std::span<const SceneObject> objects, const Rng& rng,
-                                const ObjectSceneConfig& config = {}) {
+/// Objects at random places, sizes and headings on a ground plane (z = 0, class "ground"), none of whose footprints
+/// overlap: the scenes of ch. 5, and, with one object, of ch. 4, to be seen from a hemisphere of 2 m around the origin.
+/// A footprint is that of the bounding box. Rejection, and once more from the beginning when there is no place left.
+/// Throws Error for a bad object, naming which, and if 100 beginnings do not suffice. O(triangles).
+inline ObjectScene compose_objects(std::span<const Scene> objects, const Rng& rng,
+                                   const ObjectSceneConfig& config = {}) {
   config.validate();
-  if (objects.empty()) throw Error("object_scene", "no object", "at least one");
+  if (objects.empty()) throw Error("compose_objects", "no object", "at least one");
   std::vector<Box3> bounds;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const std::string where = concat("object_scene: object ", i, objects[i].class_name.empty() ? "" : " (",
-                                     objects[i].class_name, objects[i].class_name.empty() ? "" : ")");
-    if (!objects[i].model) throw Error(where, "no model", "a scene");
-    objects[i].model->validate(where);
-    Box3& box = bounds.emplace_back();
-    for (const auto& triangle : objects[i].model->mesh.triangles)
-      for (const std::uint32_t v : triangle) box.extend(objects[i].model->mesh.vertices[v].cast<double>());
-    if (!(box.sizes().maxCoeff() > 0)) throw Error(where, "the model has no extent", "one");
+    const std::string where = concat("compose_objects: object ", i);
+    objects[i].validate(where);
+    Box3& box = bounds.emplace_back();  // of what triangles use
+    for (const auto& triangle : objects[i].mesh.triangles)
+      for (const std::uint32_t v : triangle) box.extend(objects[i].mesh.vertices[v].cast<double>());
+    if (!(box.sizes().maxCoeff() > 0)) throw Error(where, "it has no extent", "a surface");
   }
 
   std::vector<Footprint> footprints;
@@ -144,7 +134,7 @@ inline ObjectScene object_scene(std::span<const SceneObject> objects, const Rng&
     most = std::max(most, footprints.size());
   }
   if (footprints.size() < objects.size())
-    throw Error("object_scene",
+    throw Error("compose_objects",
                 concat(most, " of ", objects.size(), " objects fit on ", config.area_m, " m x ", config.area_m, " m"),
                 "a larger area_m, or fewer or smaller objects");
 
@@ -167,7 +157,10 @@ inline ObjectScene object_scene(std::span<const SceneObject> objects, const Rng&
     foot.z() = bounds[i].min().z();
     const Eigen::Affine3d place =
         Eigen::Affine3d(footprints[i].pose()) * Eigen::Scaling(scales[i]) * Eigen::Translation3d(-foot);
-    append(out.scene, *objects[i].model, place, objects[i].class_name);
+    append(out.scene, objects[i], place);
+    const double height = scales[i] * bounds[i].sizes().z();
+    for (const Eigen::Vector2d& c : footprints[i].corners())
+      for (const double z : {0.0, height}) out.bounds.extend(Eigen::Vector3d(c.x(), c.y(), z));
   }
   out.footprints = std::move(footprints);
   out.scene.start = look_at({2 * std::cos(0.6), 0, 2 * std::sin(0.6)}, {0, 0, 0});

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
@@ -26,13 +25,13 @@ class RgbdWorld {
   using Config = RgbdConfig;
 
   /// Throws Error for a scene that is empty or does not fit together, and for a bad configuration.
-  RgbdWorld(Scene scene, const Rng& rng, const Config& config = {})
-      : scene_(std::make_shared<const Scene>(std::move(scene))), camera_(*scene_, config), rng_(rng) {
-    const auto bytes = [](const auto& items) { return fnv1a(std::as_bytes(std::span(items))); };
-    scene_hash_ = bytes(scene_->mesh.vertices) ^ 3 * bytes(scene_->mesh.triangles) ^ 5 * bytes(scene_->label);
+  RgbdWorld(const Scene& scene, const Rng& rng, const Config& config = {}) : camera_(scene, config), rng_(rng) {
+    const auto hash = [](const auto& items) { return fnv1a(std::as_bytes(std::span(items))); };
+    const std::array<std::uint64_t, 3> parts = {hash(scene.mesh.vertices), hash(scene.mesh.triangles),
+                                                hash(scene.label)};
+    scene_hash_ = hash(parts);
   }
 
-  [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const RgbdCamera& camera() const { return camera_; }
   /// Images taken so far.
   [[nodiscard]] std::uint64_t measurements() const { return measurements_; }
@@ -62,7 +61,6 @@ class RgbdWorld {
   }
 
  private:
-  std::shared_ptr<const Scene> scene_;
   RgbdCamera camera_;
   Rng rng_;
   std::uint64_t measurements_ = 0, scene_hash_ = 0;
