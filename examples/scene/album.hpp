@@ -94,7 +94,7 @@ class Album {
     if ((step.index - 1) % every_ != 0) return;
     if (strips_.size() == most_) {  // too many: from now on every other one
       every_ *= 2;
-      for (std::size_t i = 0; 2 * i < strips_.size(); ++i) strips_[i] = std::move(strips_[2 * i]);
+      for (std::size_t i = 1; 2 * i < strips_.size(); ++i) strips_[i] = std::move(strips_[2 * i]);
       strips_.erase(strips_.begin() + static_cast<std::ptrdiff_t>((strips_.size() + 1) / 2), strips_.end());
       if ((step.index - 1) % every_ != 0) return;
     }
