@@ -25,7 +25,10 @@ class SceneMission : public MissionProgram {
   }
 };
 
-const std::string quick = " --pixels 96 --fov 90 --measurements 5 --clock modelled --voxel 0.05 --threshold 0.05";
+std::string measuring(int times) {
+  return " --pixels 96 --fov 90 --clock modelled --threshold 0.05 --measurements " + std::to_string(times);
+}
+const std::string quick = measuring(5) + " --voxel 0.05";
 
 TEST_F(SceneMission, LeavesWhatItPromises) {
   const Ended e = run("--room 1" + quick + out("a"));
@@ -91,9 +94,11 @@ TEST_F(SceneMission, LooksAtObjectsFromAround) {
       << "v 0 0 0\nv .5 0 0\nv .5 .3 0\nv 0 .3 0\nv 0 0 .2\nv .5 0 .2\nv .5 .3 .2\nv 0 .3 .2\n"
          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
   const std::string brick = " '" + (folder.path / "brick.obj").string() + "'";
-  const Ended e = run("--object" + brick + brick + quick + " --voxel 0.02 --range 20" + out("a"));
+  const Ended e = run("--object" + brick + brick + measuring(14) + " --voxel 0.02 --range 20" + out("a"));
   ASSERT_EQ(e.code, 0) << e.err;
-  EXPECT_GT(mission("a")["steps"][4]["metrics"]["coverage"].get<double>(), 0.8);
+  EXPECT_GT(mission("a")["steps"][13]["metrics"]["coverage"].get<double>(), 0.8);
+  for (const char* picture : {"view_1.png", "view_3.png", "view_13.png", "mesh_1.png"})  // every other of 14
+    EXPECT_EQ(text_of(folder.path / "a" / picture).substr(1, 3), "PNG") << picture;
 }
 
 TEST_F(SceneMission, BadInputIsOneLineAndCodeTwo) {
