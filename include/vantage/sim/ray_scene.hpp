@@ -48,8 +48,8 @@ struct RayPacket {
   Lanes direction_x, direction_y, direction_z;
   Lanes distance;                            ///< in lengths of the direction; infinite where nothing is met
   std::array<std::uint32_t, size> triangle;  ///< `none` where nothing is met
-  Lanes u, v;                                ///< as in Hit
-  Lanes normal_x, normal_y, normal_z;        ///< as in Hit, but of twice the triangle's area in length
+  Lanes u, v;                                ///< as in Hit; 0 where nothing is met
+  Lanes normal_x, normal_y, normal_z;        ///< as in Hit, but of twice the triangle's area in length; or 0
 };
 
 struct RaySceneConfig {
@@ -198,6 +198,7 @@ inline void RayScene::cast(RayPacket& p) const {
   lanes(r.ray.tnear) = 0;
   lanes(r.ray.tfar) = std::numeric_limits<float>::infinity();
   lanes(r.ray.time) = 0;
+  for (float* unless_met : {r.hit.u, r.hit.v, r.hit.Ng_x, r.hit.Ng_y, r.hit.Ng_z}) lanes(unless_met) = 0;
   alignas(64) int all[RayPacket::size];
   for (int k = 0; k < RayPacket::size; ++k) {
     all[k] = -1;

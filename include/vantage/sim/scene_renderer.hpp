@@ -198,7 +198,8 @@ inline void SceneRenderer::shade(const RayPacket& packet, const Met& met, float 
     const Lanes v = along_edges(&Surface::v, &Surface::v_1, &Surface::v_2);
     // A pixel covers pixel_area z^2 of a plane at depth z, and 1 / |n . d| as much of the surface (d_z = 1, |n| = 1).
     gather(met, value, [](const Surface& s, std::size_t) { return s.texels; });
-    const Lanes texels = pixel_area * packet.distance.square() * values / along.abs().max(1e-30F);
+    const Lanes depth = packet.distance.min(1e15F);  // what meets nothing is no NaN, either
+    const Lanes texels = pixel_area * depth.square() * values / along.abs().max(1e-30F);
     alignas(64) Floats is_textured;
     for (std::size_t k = 0; k < texture.size(); ++k) {
       is_textured[k] = texture[k] == no_texture ? 0.F : 1.F;
