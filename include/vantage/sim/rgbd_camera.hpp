@@ -20,7 +20,7 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
 #include <vantage/geometry/frame.hpp>
-#include <vantage/sim/pixel_noise.hpp>
+#include <vantage/sim/gaussian_pixels.hpp>
 #include <vantage/sim/scene_renderer.hpp>
 
 namespace vantage {
@@ -111,7 +111,7 @@ inline void RgbdCamera::capture(const View& view, const Rng& stream, Frame& fram
   frame.depth.swap(seen.depth);
   frame.labels.swap(seen.labels);
 
-  const PixelNoise noise(stream.fork(bits_of(view)));
+  const GaussianPixels noise(stream.fork(bits_of(view)));
   const auto low = static_cast<float>(config_.min_depth_m), high = static_cast<float>(config_.max_depth_m);
   const auto depth_noise = static_cast<float>(config_.depth_noise),
              colour_noise = static_cast<float>(config_.colour_noise);

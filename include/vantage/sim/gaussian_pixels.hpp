@@ -22,10 +22,10 @@ namespace vantage {
 /// Philox 4x32 in seven rounds (the fewest that pass all tests: Salmon et al., SC 2011, Table 2), then Box and Muller's
 /// transform. Loops over 16 lanes without a branch, for the compiler to vectorise: about 1 ns a number on one core with
 /// AVX-512. Const members run concurrently.
-class PixelNoise {
+class GaussianPixels {
  public:
   /// Takes one number of the stream as its key.
-  explicit PixelNoise(Rng stream) {
+  explicit GaussianPixels(Rng stream) {
     const std::uint64_t key = stream();
     key_ = {static_cast<std::uint32_t>(key), static_cast<std::uint32_t>(key >> 32)};
   }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
-#include <vantage/sim/pixel_noise.hpp>
+#include <vantage/sim/gaussian_pixels.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,25 +12,25 @@
 namespace vantage {
 namespace {
 
-std::vector<float> row_of(const PixelNoise& noise, std::uint32_t row, std::uint32_t channel, std::size_t n) {
+std::vector<float> row_of(const GaussianPixels& noise, std::uint32_t row, std::uint32_t channel, std::size_t n) {
   std::vector<float> values(n);
   noise.normals(row, channel, values);
   return values;
 }
 
-TEST(PixelNoise, IsAFunctionOfStreamRowAndChannel) {
-  const PixelNoise noise(Rng(5));
+TEST(GaussianPixels, IsAFunctionOfStreamRowAndChannel) {
+  const GaussianPixels noise(Rng(5));
   const auto values = row_of(noise, 3, 1, 200);
-  EXPECT_EQ(row_of(PixelNoise(Rng(5)), 3, 1, 200), values);
+  EXPECT_EQ(row_of(GaussianPixels(Rng(5)), 3, 1, 200), values);
   for (const std::size_t n : {0U, 1U, 63U, 64U, 65U, 199U})  // whatever is asked for at once
     EXPECT_EQ(row_of(noise, 3, 1, n), std::vector<float>(values.begin(), values.begin() + static_cast<long>(n)));
   for (const auto& other : {row_of(noise, 4, 1, 200), row_of(noise, 3, 2, 200), row_of(noise, 1, 3, 200),
-                            row_of(PixelNoise(Rng(6)), 3, 1, 200)})
+                            row_of(GaussianPixels(Rng(6)), 3, 1, 200)})
     for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NE(other[i], values[i]);
 }
 
-TEST(PixelNoise, IsStandardNormal) {
-  const PixelNoise noise(Rng(11));
+TEST(GaussianPixels, IsStandardNormal) {
+  const GaussianPixels noise(Rng(11));
   std::vector<float> all;
   for (std::uint32_t row = 0; row < 1000; ++row) {
     const auto values = row_of(noise, row, 0, 512);
@@ -56,8 +56,8 @@ TEST(PixelNoise, IsStandardNormal) {
   EXPECT_LT(all.back(), 7);
 }
 
-TEST(PixelNoise, NeighboursRowsAndChannelsAreUncorrelated) {
-  const PixelNoise noise(Rng(2));
+TEST(GaussianPixels, NeighboursRowsAndChannelsAreUncorrelated) {
+  const GaussianPixels noise(Rng(2));
   double next = 0, far = 0, below = 0, channel = 0;  // lane to lane, cosine to sine, row to row, channel to channel
   constexpr std::size_t width = 512, rows = 500;
   for (std::uint32_t row = 0; row < rows; ++row) {
