@@ -35,7 +35,7 @@ Texture paint(F&& colour, int width = texture_size, int height = texture_size) {
                                 1 - (static_cast<float>(row) + 0.5F) / static_cast<float>(height));
         auto& texel = t.rgb[row * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
         for (Eigen::Index k = 0; k < 3; ++k)
-          texel[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(255 * std::clamp(c[k], 0.F, 1.F) + 0.5F);
+          texel[static_cast<std::size_t>(k)] = static_cast<std::uint8_t>(std::lround(255 * std::clamp(c[k], 0.F, 1.F)));
       }
   });
   return t;
@@ -60,7 +60,8 @@ class FractalNoise {
                   y = (v - std::floor(v)) * static_cast<float>(rows);
       const int i = static_cast<int>(x), j = static_cast<int>(y);
       const auto at = [&](int column, int row) {
-        return lattices_[o][static_cast<std::size_t>((row % rows) * columns + column % columns)];
+        return lattices_[o][static_cast<std::size_t>(row % rows) * static_cast<std::size_t>(columns) +
+                            static_cast<std::size_t>(column % columns)];
       };
       const float s = smooth(x - static_cast<float>(i)), t = smooth(y - static_cast<float>(j));
       sum += weight * std::lerp(std::lerp(at(i, j), at(i + 1, j), s), std::lerp(at(i, j + 1), at(i + 1, j + 1), s), t);
@@ -97,6 +98,7 @@ inline Texture wood(const Colour& colour, Rng rng) {
 inline Texture planks(const Colour& colour, int boards, Rng rng) {
   const FractalNoise grain(3, 64, 2, rng.fork(0)), wide(2, 8, 2, rng.fork(1));
   std::vector<std::array<float, 3>> board;  // cut, tint of either half
+  board.reserve(static_cast<std::size_t>(boards));
   Rng draw = rng.fork(2);
   for (int i = 0; i < boards; ++i)
     board.push_back({static_cast<float>(draw.uniform()), static_cast<float>(draw.uniform(0.8, 1.05)),
@@ -122,7 +124,7 @@ inline Texture tiles(const Colour& a, const Colour& b, int n, Rng rng) {
   return paint([&](float u, float v) -> Colour {
     const float x = u * static_cast<float>(n), y = v * static_cast<float>(n), fx = x - std::floor(x),
                 fy = y - std::floor(y);
-    if (std::min({fx, 1 - fx, fy, 1 - fy}) < 0.025F) return joint;
+    if (std::min({fx, 1 - fx, fy, 1 - fy}) < 0.025F) return Colour(joint);
     const Colour& c = (static_cast<int>(x) + static_cast<int>(y)) % 2 == 0 ? a : b;
     return c * (0.88F + 0.2F * marble(u, v));
   });
@@ -141,7 +143,9 @@ inline Texture bricks(const Colour& colour, Rng rng) {
     const float fx = x - std::floor(x), fy = y - std::floor(y), noise = rough(u, v);
     const float edge = std::min(std::min(fx, 1 - fx) * 2.5F, std::min(fy, 1 - fy)) + 0.06F * (noise - 0.5F);
     if (edge < 0.08F) return mortar * (0.9F + 0.2F * noise);
-    return colour * tint[static_cast<std::size_t>(static_cast<int>(y) * a_course + static_cast<int>(x) % a_course)] *
+    return colour *
+           tint[static_cast<std::size_t>(y) * static_cast<std::size_t>(a_course) +
+                static_cast<std::size_t>(x) % static_cast<std::size_t>(a_course)] *
            (0.8F + 0.35F * noise);
   });
 }

@@ -185,7 +185,8 @@ inline Room procedural_room(const RoomConfig& config, const Rng& rng) {
   for (int j = 0; j < config.rooms_y; ++j)
     for (int i = 0; i < config.rooms_x; ++i) {
       const Eigen::Vector2d low = -whole / 2 + Eigen::Vector2d(i, j).cwiseProduct(pitch);
-      const auto index = static_cast<std::uint64_t>(j * config.rooms_x + i);
+      const auto index =
+          static_cast<std::uint64_t>(j) * static_cast<std::uint64_t>(config.rooms_x) + static_cast<std::uint64_t>(i);
       detail::RoomMaker maker(builder, Box2(low, low + size), config, rng.fork(index));
       // A doorway to the right and one upwards: both rooms draw the same number for it, and measure it from either end.
       const auto doorway = [&](std::size_t side, bool exists, std::uint64_t owner, bool from_end) {

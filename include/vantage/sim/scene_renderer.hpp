@@ -261,8 +261,9 @@ void SceneRenderer::render(const View& view, const Camera& camera, Rendering<Cha
                        left = static_cast<Eigen::Index>(i) % columns * tile;
     Lanes lane_x, lane_y;  // pixel centres
     for (Eigen::Index k = 0; k < RayPacket::size; ++k) {
+      const Eigen::Index row = k / packet_width;
       lane_x[k] = static_cast<float>(k % packet_width) + 0.5F;
-      lane_y[k] = static_cast<float>(k / packet_width) + 0.5F;
+      lane_y[k] = static_cast<float>(row) + 0.5F;
     }
     RayPacket packet;
     packet.origin = view.position().cast<float>();
