@@ -82,7 +82,7 @@ TEST_F(SceneMission, ItsViewsAreARecordingThatReplays) {
   ASSERT_EQ(e.code, 0) << e.err;
   const auto before = mission("a")["steps"], after = mission("b")["steps"];
   ASSERT_EQ(after.size(), 5u);
-  EXPECT_EQ(after[4]["view"], before[4]["view"]);
+  EXPECT_EQ(after[4]["view"]["position"], before[4]["view"]["position"]);  // rotations are made rigid again
   const auto triangles = [&](const char* name) {
     return static_cast<double>(read_ply_mesh(folder.path / name / "mesh.ply").triangles.size());
   };
