@@ -36,6 +36,8 @@
 #include <vantage/geometry/triangle_mesh.hpp>
 #include <vantage/geometry/tsdf.hpp>
 #include <vantage/geometry/view.hpp>
+#include <vantage/geometry/voxel_bits.hpp>
+#include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/loop/carry.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/mission_state.hpp>

@@ -15,7 +15,8 @@
 namespace vantage {
 namespace {
 
-using need::Coverage, need::Depth, need::Field, need::Fisher, need::Forecast, need::Occupancy, need::Uncertainty;
+using need::Coverage, need::Depth, need::Field, need::Fisher, need::Forecast, need::Navigable, need::Occupancy,
+    need::Uncertainty, need::Voxels;
 using Frontier = need::Regions<frontier>;
 using LowConfidence = need::Regions<low_confidence>;
 
@@ -24,9 +25,9 @@ constexpr int offered = (0 + ... + offers<M, Ns>);
 /// Offers all of Ns, and nothing else of what there is to offer.
 template <class M, class... Ns>
 constexpr bool offers_just =
-    Map<M>&& offered<M, Ns...> == sizeof...(Ns) &&
-    offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, LowConfidence, Fisher> ==
-        sizeof...(Ns);
+    Map<M>&& offered<M, Ns...> == sizeof...(Ns) && offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy,
+                                                           Voxels, Navigable, Frontier, LowConfidence, Fisher> ==
+                                                       sizeof...(Ns);
 
 // Archetypes: each adds one capability to a plain map.
 static_assert(offers_just<archetype::Map>);
@@ -36,11 +37,13 @@ static_assert(offers_just<archetype::Forecasting<>, Forecast>);
 static_assert(offers_just<archetype::Forecasting<archetype::Uncertain<>>, Forecast, Uncertainty>);
 static_assert(offers_just<archetype::Covering<>, Coverage>);
 static_assert(offers_just<archetype::Occupied<>, Occupancy>);
+static_assert(offers_just<archetype::Voxelled<>, Occupancy, Voxels>);
+static_assert(offers_just<archetype::Navigable<>, Occupancy, Voxels, Navigable>);
 static_assert(offers_just<archetype::Frontiers<>, Occupancy, Frontier>);
 static_assert(offers_just<archetype::Field<>, Field>);
 static_assert(offers_just<archetype::Fisher<>, Fisher>);
-static_assert(
-    offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Frontier, Fisher>);
+static_assert(offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels,
+                          Navigable, Frontier, Fisher>);
 static_assert(RefinableMap<archetype::Refinable<>> && !RefinableMap<archetype::Map>);
 static_assert(Persistent<archetype::Persistent<>> && !Persistent<archetype::Map>);
 

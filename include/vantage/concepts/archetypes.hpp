@@ -20,6 +20,8 @@
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/view.hpp>
+#include <vantage/geometry/voxel_bits.hpp>
+#include <vantage/geometry/voxel_grid.hpp>
 
 // A minimal model of each concept: copy the one you need and write your own in its place. They are no mock-ups: they
 // keep every promise of their concept, and the contract tests run over them as over the real ones. The map counts how
@@ -116,6 +118,43 @@ class Occupied : public Base {
   }
 };
 
+/// VoxelOccupancy: 8 x 8 x 4 voxels, one block; those of a side that was seen are free.
+template <class Base = Occupied<>>
+class Voxelled : public Base {
+ public:
+  [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
+  [[nodiscard]] Space state(const Eigen::Vector3i& voxel) const { return this->at(grid_.centre(voxel)); }
+  [[nodiscard]] std::span<const Eigen::Vector3i> known_blocks() const {
+    static const Eigen::Vector3i block = Eigen::Vector3i::Zero();
+    return {&block, this->looks(0) + this->looks(1) > 0 ? std::size_t{1} : std::size_t{0}};
+  }
+  [[nodiscard]] VoxelBits free_in(const Eigen::Vector3i& block) const {
+    VoxelBits bits;
+    VoxelBits::inside(grid_, block).for_each([&](std::size_t local) {
+      if (state(voxel_of(block, local)) == Space::free) bits.set(local);
+    });
+    return bits;
+  }
+  [[nodiscard]] VoxelBits occupied_in(const Eigen::Vector3i&) const { return {}; }
+  [[nodiscard]] VoxelBits unexplored_in(const Eigen::Vector3i& block) const {
+    return VoxelBits::inside(grid_, block) & ~free_in(block);
+  }
+
+ private:
+  VoxelGrid grid_ = VoxelGrid::dividing(Map().bounds(), 0.25);
+};
+
+/// NavigableMap: its robot fits into a voxel.
+template <class Base = Voxelled<>>
+class Navigable : public Base {
+ public:
+  [[nodiscard]] double clearance_m() const { return 0.1; }
+  [[nodiscard]] bool navigable(const Eigen::Vector3i& voxel) const {
+    return this->grid().contains(voxel) && this->state(voxel) == Space::free;
+  }
+  [[nodiscard]] VoxelBits navigable_in(const Eigen::Vector3i& block) const { return this->free_in(block); }
+};
+
 /// RegionMap: the middle of each side that was not seen yet, and the direction from which to see it.
 template <class Base = Occupied<>>
 class Frontiers : public Base {
@@ -164,7 +203,8 @@ class Refinable : public Base {
 };
 
 /// A map with all of it, in the order in which the layers are put on.
-using FullMap = Persistent<Refinable<Fisher<Field<Frontiers<Occupied<Covering<Forecasting<Ranging<Uncertain<>>>>>>>>>>;
+using FullMap = Persistent<
+    Refinable<Fisher<Field<Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Ranging<Uncertain<>>>>>>>>>>>>;
 
 /// ViewUtility: psi(M, v). Here: views from the right are better, the higher the better.
 struct ViewUtility {

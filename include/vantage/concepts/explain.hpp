@@ -18,6 +18,8 @@ struct Forecast;
 struct Field;
 struct Coverage;
 struct Occupancy;
+struct Voxels;
+struct Navigable;
 struct Fisher;
 template <class Kind>
 struct Regions;  ///< frontier or low_confidence
@@ -66,6 +68,10 @@ template <class M>
 inline constexpr bool offers<M, need::Coverage> = CoverageMap<M>;
 template <class M>
 inline constexpr bool offers<M, need::Occupancy> = OccupancyMap<M>;
+template <class M>
+inline constexpr bool offers<M, need::Voxels> = VoxelOccupancy<M>;
+template <class M>
+inline constexpr bool offers<M, need::Navigable> = NavigableMap<M>;
 template <class M>
 inline constexpr bool offers<M, need::Fisher> = FisherMap<M>;
 template <class M, class Kind>
@@ -132,6 +138,14 @@ struct Explain {
       static_assert(offers<M, N>,
                     "vantage: this policy needs an OccupancyMap: give the map `Space at(const Eigen::Vector3d&) "
                     "const`, or pair it with a VoxelMap");
+    else if constexpr (std::is_same_v<N, need::Voxels>)
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs a VoxelOccupancy: give the map grid(), state(voxel), known_blocks(), "
+                    "free_in(block), occupied_in(block) and unexplored_in(block), or pair it with a VoxelMap");
+    else if constexpr (std::is_same_v<N, need::Navigable>)
+      static_assert(offers<M, N>,
+                    "vantage: this policy needs a NavigableMap: give the map, besides what VoxelOccupancy asks, "
+                    "clearance_m(), navigable(voxel) and navigable_in(block), or pair it with a VoxelMap");
     else if constexpr (std::is_same_v<N, need::Fisher>)
       static_assert(offers<M, N>,
                     "vantage: this policy needs a FisherMap: give the map parameters() and `void fisher(const View&, "

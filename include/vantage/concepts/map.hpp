@@ -13,6 +13,8 @@
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/camera.hpp>
 #include <vantage/geometry/view.hpp>
+#include <vantage/geometry/voxel_bits.hpp>
+#include <vantage/geometry/voxel_grid.hpp>
 
 // What a map must offer; the comments say what it must mean, and the contract tests check the meaning.
 namespace vantage {
@@ -65,6 +67,31 @@ enum class Space : std::uint8_t { unknown, free, occupied };
 template <class M>
 concept OccupancyMap = Map<M> && requires(const M m, const Eigen::Vector3d& p) {
   { m.at(p) } -> std::same_as<Space>;
+};
+
+/// An OccupancyMap that knows about whole voxels of a grid. What it knows lies in blocks (geometry/voxel_bits.hpp):
+/// known_blocks() lists those that hold anything, in an order that the measurements alone determine; every other block
+/// is unexplored. Explored is what a measurement hit or passed, were it too little to call it free or occupied. Bits
+/// beyond the grid are 0 in every mask; a block may be any inside of the grid's.
+template <class M>
+concept VoxelOccupancy = OccupancyMap<M> &&
+    requires(const M m, const Eigen::Vector3i& voxel, const Eigen::Vector3i& block) {
+  { m.grid() } -> std::convertible_to<const VoxelGrid&>;
+  { m.state(voxel) } -> std::same_as<Space>;  // of a voxel of the grid
+  { m.known_blocks() } -> std::convertible_to<std::span<const Eigen::Vector3i>>;
+  { m.free_in(block) } -> std::convertible_to<VoxelBits>;
+  { m.occupied_in(block) } -> std::convertible_to<VoxelBits>;
+  { m.unexplored_in(block) } -> std::convertible_to<VoxelBits>;
+};
+
+/// VoxelOccupancy that also keeps where a robot's body fits: a voxel is navigable if all space within clearance_m() of
+/// its centre is free (how this is counted is the map's to state), so that a search needs one bit a voxel.
+template <class M>
+concept NavigableMap = VoxelOccupancy<M> &&
+    requires(const M m, const Eigen::Vector3i& voxel, const Eigen::Vector3i& block) {
+  { m.clearance_m() } -> std::convertible_to<double>;
+  { m.navigable(voxel) } -> std::same_as<bool>;  // any voxel: false outside of the grid
+  { m.navigable_in(block) } -> std::convertible_to<VoxelBits>;
 };
 
 /// Something worth looking at, and the side from which: world frame [m], unit normal.
