@@ -69,8 +69,14 @@ struct alignas(64) VoxelBits {
     for (std::size_t z = 0; z < 8; ++z) bits.slice[z] = ~slice[z];
     return bits;
   }
-  [[nodiscard]] friend constexpr VoxelBits operator&(VoxelBits a, const VoxelBits& b) { return a &= b; }
-  [[nodiscard]] friend constexpr VoxelBits operator|(VoxelBits a, const VoxelBits& b) { return a |= b; }
+  [[nodiscard]] friend constexpr VoxelBits operator&(const VoxelBits& a, const VoxelBits& b) {
+    VoxelBits bits = a;
+    return bits &= b;
+  }
+  [[nodiscard]] friend constexpr VoxelBits operator|(const VoxelBits& a, const VoxelBits& b) {
+    VoxelBits bits = a;
+    return bits |= b;
+  }
   [[nodiscard]] constexpr bool operator==(const VoxelBits&) const = default;
 
  private:
