@@ -38,6 +38,7 @@
 #include <vantage/geometry/view.hpp>
 #include <vantage/geometry/voxel_bits.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/geometry/voxel_line.hpp>
 #include <vantage/loop/carry.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/mission_state.hpp>
@@ -66,12 +67,18 @@
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
 #include <vantage/planning/straight_line.hpp>
+#include <vantage/sampler/frontier.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
 #include <vantage/sampler/lawnmower.hpp>
+#include <vantage/sampler/level.hpp>
+#include <vantage/sampler/local.hpp>
 #include <vantage/sampler/pattern.hpp>
 #include <vantage/sampler/pool.hpp>
+#include <vantage/sampler/roi_and_local.hpp>
 #include <vantage/sampler/spiral.hpp>
+#include <vantage/sampler/utility_weighted.hpp>
+#include <vantage/sampler/view_cone.hpp>
 #include <vantage/selector/arg_max.hpp>
 #include <vantage/selector/first_best.hpp>
 #include <vantage/selector/in_order.hpp>

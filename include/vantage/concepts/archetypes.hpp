@@ -155,14 +155,15 @@ class Navigable : public Base {
   [[nodiscard]] VoxelBits navigable_in(const Eigen::Vector3i& block) const { return this->free_in(block); }
 };
 
-/// RegionMap: the middle of each side that was not seen yet, and the direction from which to see it.
+/// RegionMap: while only one side was seen, the place where it ends, to be looked at from within.
 template <class Base = Occupied<>>
 class Frontiers : public Base {
  public:
   [[nodiscard]] std::vector<Region> regions(frontier) const {
     std::vector<Region> found;
-    for (const double x : {-0.5, 0.5})
-      if (this->looks(this->side({x, 0, 0})) == 0) found.push_back({{x, 0, 0}, Eigen::Vector3d::UnitZ()});
+    for (const double x : {-0.125, 0.125})
+      if (this->looks(this->side({x, 0, 0})) > 0 && this->looks(this->side({-x, 0, 0})) == 0)
+        found.push_back({{x, 0.125, 0.125}, {x < 0 ? -1.0 : 1.0, 0, 0}});
     return found;
   }
 };
