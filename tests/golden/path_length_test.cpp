@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -33,14 +34,25 @@ class Masked : public test::DrawnVoxels {
   }
 };
 
+/// One column with a title; "inf" where there is no path, which read_csv() does not take for a number.
+std::vector<double> read_lengths(const std::string& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  std::vector<double> lengths;
+  while (std::getline(in, line)) lengths.push_back(std::stod(line));
+  return lengths;
+}
+
 TEST(GoldenPathLength, ThePublishedCodesLengths) {
   if (std::string(VANTAGE_GOLDEN_DIR).empty()) GTEST_SKIP() << "VANTAGE_GOLDEN_DIR is not set";
   const std::string folder = std::string(VANTAGE_GOLDEN_DIR) + "/surfel/voxel/";
   const VoxelGrid grid = VoxelGrid::dividing({Eigen::Vector3d(-0.1, -0.05, 0), Eigen::Vector3d(2.45, 2.05, 1.5)}, 0.2);
   ASSERT_EQ(grid.size(), Eigen::Vector3i(13, 11, 8));
-  const CsvTable masks = read_csv(folder + "masks.csv"), expected = read_csv(folder + "path_length.csv");
+  const CsvTable masks = read_csv(folder + "masks.csv");
+  const std::vector<double> expected_m = read_lengths(folder + "path_length.csv");
   ASSERT_EQ(masks.rows(), 13u * 11 * 8);
-  ASSERT_EQ(expected.rows(), masks.rows());
+  ASSERT_EQ(expected_m.size(), masks.rows());
 
   Masked map(grid, 0.3);
   std::vector<View> goals;
@@ -57,12 +69,11 @@ TEST(GoldenPathLength, ThePublishedCodesLengths) {
   const std::vector<double> lengths_m = AStar({.own_ball_m = 0.3}).lengths_m(map, goals[283], goals);
   std::size_t reachable = 0;
   for (std::size_t i = 0; i < goals.size(); ++i) {
-    const double length_m = expected.column("shortest_path_m_from_start_voxel_283")[i];
-    reachable += std::isfinite(length_m);
-    if (std::isfinite(length_m))
-      EXPECT_NEAR(lengths_m[i], length_m, 1e-9) << i;
+    reachable += std::isfinite(expected_m[i]);
+    if (std::isfinite(expected_m[i]))
+      EXPECT_NEAR(lengths_m[i], expected_m[i], 1e-9) << i;
     else
-      EXPECT_EQ(lengths_m[i], length_m) << i;
+      EXPECT_EQ(lengths_m[i], expected_m[i]) << i;
   }
   EXPECT_EQ(reachable, 120u);
 }
