@@ -32,24 +32,27 @@ class RayCaster {
   /// `direction` are finite, direction is not 0. O(blocks + voxels of those with occupied ones), along the ray.
   [[nodiscard]] std::optional<Hit> first_occupied(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                                                   double most = std::numeric_limits<double>::infinity()) const {
-    return first<true>(GridRay(map_->grid(), from, direction, most),
-                       [this](const Eigen::Vector3i& block) -> decltype(auto) {
-                         if constexpr (in_place)
-                           return reference(block, [](const auto& b) -> const VoxelBits& { return b.occupied; });
-                         else
-                           return map_->occupied_in(block);
-                       });
+    return first_occupied(GridRay(map_->grid(), from, direction, most));
+  }
+  /// The same for what is left of a ray through the map's grid.
+  [[nodiscard]] std::optional<Hit> first_occupied(const GridRay& ray) const {
+    return first<true>(ray, [this](const Eigen::Vector3i& block) -> decltype(auto) {
+      if constexpr (in_place)
+        return reference(block, [](const auto& b) -> const VoxelBits& { return b.occupied; });
+      else
+        return map_->occupied_in(block);
+    });
   }
   /// The first voxel that is not free, unknown or occupied: where a robot that keeps to free space must stop.
   [[nodiscard]] std::optional<Hit> first_not_free(const Eigen::Vector3d& from, const Eigen::Vector3d& direction,
                                                   double most = std::numeric_limits<double>::infinity()) const {
-    return first<false>(GridRay(map_->grid(), from, direction, most),
-                        [this](const Eigen::Vector3i& block) -> decltype(auto) {
-                          if constexpr (in_place)
-                            return reference(block, [](const auto& b) -> const VoxelBits& { return b.free; });
-                          else
-                            return map_->free_in(block);
-                        });
+    const GridRay ray(map_->grid(), from, direction, most);
+    return first<false>(ray, [this](const Eigen::Vector3i& block) -> decltype(auto) {
+      if constexpr (in_place)
+        return reference(block, [](const auto& b) -> const VoxelBits& { return b.free; });
+      else
+        return map_->free_in(block);
+    });
   }
 
  private:
