@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <vantage/core/error.hpp>
 #include <vantage/core/parallel.hpp>
+#include <vantage/core/symmetric_eigen.hpp>
 #include <vantage/geometry/depth_surface.hpp>
 #include <vantage/geometry/view.hpp>
 
@@ -36,8 +36,7 @@ struct Alignment {
   std::size_t pairs = 0;  ///< points that found a partner
   double overlap = 0;     ///< their share of all points
   double rms_m = 0;       ///< of their distances along the normal
-  double conditioning =
-      0;  ///< smallest over largest eigenvalue of the normal equations, turns counted at the surface's size
+  double conditioning = 0;  ///< smallest over largest eigenvalue of the normal equations, turns at the surface's size
   int iterations = 0;
 };
 
@@ -157,13 +156,11 @@ inline std::optional<Alignment> align(const DepthSurface& source, const DepthSur
       result.overlap = e.points == 0 ? 0 : pairs / static_cast<double>(e.points);
       if (e.pairs < 6 || result.overlap < config.least_overlap) return std::nullopt;
       result.rms_m = std::sqrt(e.squares / pairs);
-      const Eigen::Matrix<double, 6, 6> A = e.A.selfadjointView<Eigen::Lower>();
-      const Eigen::Matrix<double, 6, 1> eigenvalues =
-          Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(A, Eigen::EigenvaluesOnly).eigenvalues();
-      result.conditioning = std::max(0.0, eigenvalues[0]) / eigenvalues[5];
-      if (!(result.conditioning >= config.least_conditioning) || !(eigenvalues[0] > 0)) return std::nullopt;
+      const SymmetricEigen<6> eigen(e.A);
+      result.conditioning = std::max(0.0, eigen.smallest()) / eigen.largest();
+      if (!(result.conditioning >= config.least_conditioning) || !(eigen.smallest() > 0)) return std::nullopt;
 
-      const Eigen::Matrix<double, 6, 1> xi = -A.ldlt().solve(e.b);
+      const Eigen::Matrix<double, 6, 1> xi = -eigen.solve(e.b);
       const Eigen::Vector3d turn = xi.head<3>() / size_m;
       if (!xi.allFinite()) return std::nullopt;
       const Eigen::AngleAxisd rotation(turn.norm(), turn.norm() > 0 ? turn.normalized() : Eigen::Vector3d::UnitX());
