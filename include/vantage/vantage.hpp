@@ -66,6 +66,15 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/maps/voxel/class_counts.hpp>
+#include <vantage/maps/voxel/clearance.hpp>
+#include <vantage/maps/voxel/frame_voxels.hpp>
+#include <vantage/maps/voxel/frontier_bits.hpp>
+#include <vantage/maps/voxel/log_odds.hpp>
+#include <vantage/maps/voxel/projective.hpp>
+#include <vantage/maps/voxel/ray_cast.hpp>
+#include <vantage/maps/voxel/voxel_blocks.hpp>
+#include <vantage/maps/voxel/voxel_map.hpp>
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/lattice_moves.hpp>
 #include <vantage/planning/level_view.hpp>
