@@ -9,6 +9,7 @@
 #include <vantage/loop/carry.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
+#include <vantage/maps/voxel/voxel_map.hpp>
 
 // The capability table: what each map offers, and what it does not. A map that gains or loses a capability by accident
 // does not compile here.
@@ -64,6 +65,14 @@ static_assert(field_map<IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed
 static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>>);
 static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Fixed<>>>);
 static_assert(Posed<IntegralGp<>::Measurement> && Posed<archetype::Map::Measurement>);
+
+// Voxels: Depth, Uncertainty, Entropy and InformationGain in any combination; occupancy to the last voxel.
+template <class M>
+constexpr bool voxel_map =
+    offers_just<M, Uncertainty, Depth, Coverage, Occupancy, Voxels, Navigable, Frontier, Entropy, Gain>&& Persistent<M>;
+static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, ClassCounts<5>, NoOccupiedCentreInBall>>);
+static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
+              !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
 
 // What is no map: each lacks one thing.
 struct WithoutMeasurement {
