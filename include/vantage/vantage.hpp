@@ -94,6 +94,7 @@
 #include <vantage/selector/route.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
 #include <vantage/utility/information_gain.hpp>
+#include <vantage/utility/mean_of_channel.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
 #include <vantage/utility/ray_entropy.hpp>
 #include <vantage/utility/unexplored.hpp>

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <vantage/concepts/channels.hpp>
-#include <vantage/concepts/explain.hpp>
-#include <vantage/concepts/map.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
-#include <vantage/geometry/view.hpp>
+#include <vantage/utility/mean_of_channel.hpp>
 
 namespace vantage {
 
@@ -16,25 +14,11 @@ namespace vantage {
 ///
 /// the expectation over where the ray ends, by the map's own belief and its own model of the sensor, which is what the
 /// map renders (channel::InformationGain). Rays count as independent, as in Isler et al., "An information gain
-/// formulation for active volumetric 3D reconstruction", ICRA 2016. [nats]. Cost: one rendering a view.
-class InformationGain {
+/// formulation for active volumetric 3D reconstruction", ICRA 2016. In nats.
+class InformationGain : public MeanOfChannel<channel::InformationGain, &channel::InformationGain::information_gain> {
  public:
-  using MapNeeds = Needs<need::Channels<channel::InformationGain>>;
-
-  InformationGain() : InformationGain(Camera::from_fov(128, 128, deg(60))) {}
-  /// Throws Error unless the camera is valid.
-  explicit InformationGain(const Camera& camera) : camera_(camera) { camera_.validate(); }
-
-  template <Renders<channel::InformationGain> M>
-  double operator()(const M& map, const View& view) const {
-    Rendering<channel::InformationGain> image;
-    map.render(view, camera_, image);
-    return image.information_gain.template cast<double>().mean();
-  }
-  [[nodiscard]] const Camera& camera() const { return camera_; }
-
- private:
-  Camera camera_;
+  InformationGain() : MeanOfChannel(Camera::from_fov(128, 128, deg(60))) {}
+  using MeanOfChannel::MeanOfChannel;
 };
 
 }  // namespace vantage

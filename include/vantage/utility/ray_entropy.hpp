@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <vantage/concepts/channels.hpp>
-#include <vantage/concepts/explain.hpp>
-#include <vantage/concepts/map.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
-#include <vantage/geometry/view.hpp>
+#include <vantage/utility/mean_of_channel.hpp>
 
 namespace vantage {
 
@@ -16,25 +14,11 @@ namespace vantage {
 ///
 /// with o the probability that a point is occupied, H(o) its entropy and T the chance that the ray gets there
 /// (eq. 5.10, 5.11); with voxels for points it is the occlusion-aware gain of Isler et al., ICRA 2016. The map renders
-/// H_ray. [nats]. Cost: one rendering a view.
-class RayEntropy {
+/// H_ray, in nats.
+class RayEntropy : public MeanOfChannel<channel::Entropy, &channel::Entropy::entropy> {
  public:
-  using MapNeeds = Needs<need::Channels<channel::Entropy>>;
-
-  RayEntropy() : RayEntropy(Camera::from_fov(128, 128, deg(60))) {}
-  /// Throws Error unless the camera is valid.
-  explicit RayEntropy(const Camera& camera) : camera_(camera) { camera_.validate(); }
-
-  template <Renders<channel::Entropy> M>
-  double operator()(const M& map, const View& view) const {
-    Rendering<channel::Entropy> image;
-    map.render(view, camera_, image);
-    return image.entropy.template cast<double>().mean();
-  }
-  [[nodiscard]] const Camera& camera() const { return camera_; }
-
- private:
-  Camera camera_;
+  RayEntropy() : MeanOfChannel(Camera::from_fov(128, 128, deg(60))) {}
+  using MeanOfChannel::MeanOfChannel;
 };
 
 }  // namespace vantage
