@@ -26,6 +26,7 @@
 #include <vantage/geometry/depth_surface.hpp>
 #include <vantage/geometry/field_image.hpp>
 #include <vantage/geometry/frame.hpp>
+#include <vantage/geometry/grid_ray.hpp>
 #include <vantage/geometry/image.hpp>
 #include <vantage/geometry/marching_cubes.hpp>
 #include <vantage/geometry/marching_cubes_table.hpp>
@@ -36,6 +37,7 @@
 #include <vantage/geometry/triangle_mesh.hpp>
 #include <vantage/geometry/tsdf.hpp>
 #include <vantage/geometry/view.hpp>
+#include <vantage/geometry/visible_voxels.hpp>
 #include <vantage/geometry/voxel_bits.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/geometry/voxel_line.hpp>
@@ -71,8 +73,11 @@
 #include <vantage/maps/voxel/frame_voxels.hpp>
 #include <vantage/maps/voxel/frontier_bits.hpp>
 #include <vantage/maps/voxel/log_odds.hpp>
+#include <vantage/maps/voxel/occupancy_table.hpp>
 #include <vantage/maps/voxel/projective.hpp>
 #include <vantage/maps/voxel/ray_cast.hpp>
+#include <vantage/maps/voxel/ray_caster.hpp>
+#include <vantage/maps/voxel/render_voxels.hpp>
 #include <vantage/maps/voxel/voxel_blocks.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
 #include <vantage/planning/a_star.hpp>
@@ -101,7 +106,11 @@
 #include <vantage/selector/per_flight_time.hpp>
 #include <vantage/selector/route.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
+#include <vantage/utility/information_gain.hpp>
+#include <vantage/utility/mean_of_channel.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
+#include <vantage/utility/ray_entropy.hpp>
+#include <vantage/utility/unexplored.hpp>
 #include <vantage/utility/uninformed.hpp>
 #include <vantage/utility/variance_reduction.hpp>
 #include <vantage/utility/view_distance.hpp>

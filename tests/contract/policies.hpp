@@ -20,7 +20,10 @@
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
+#include <vantage/utility/information_gain.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
+#include <vantage/utility/ray_entropy.hpp>
+#include <vantage/utility/unexplored.hpp>
 #include <vantage/utility/uninformed.hpp>
 #include <vantage/utility/variance_reduction.hpp>
 #include <vantage/utility/view_distance.hpp>
@@ -32,7 +35,8 @@
 namespace vantage::test {
 
 using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
-                       Uninformed, archetype::ViewUtility, archetype::HistoryUtility, archetype::PreparedUtility>;
+                       Uninformed, Unexplored, RayEntropy, InformationGain, archetype::ViewUtility,
+                       archetype::HistoryUtility, archetype::PreparedUtility>;
 using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, archetype::Sampler>;
 using Selectors = List<ArgMax, InOrder, PerFlightTime, MinusCost<>, TravelTradeoff<>, MinusCost<archetype::Router>,
                        archetype::Selector>;
@@ -44,8 +48,10 @@ using Clocks = List<MeasuredClock, ModelledClock, WallClock, archetype::Clock>;
 template <class P>
 P make() {
   const Box2 field = Lattice::field_20m();
-  if constexpr (std::same_as<P, MeanUncertainty>)
-    return MeanUncertainty(Camera::from_fov(8, 6, deg(60)));
+  if constexpr (std::same_as<P, MeanUncertainty> || std::same_as<P, RayEntropy> || std::same_as<P, InformationGain>)
+    return P(Camera::from_fov(8, 6, deg(60)));
+  else if constexpr (std::same_as<P, Unexplored>)
+    return Unexplored({.camera = Camera::from_fov(16, 12, deg(60))});
   else if constexpr (std::same_as<P, Lattice>)
     return Lattice({.layers = {Layer::inside(field, 2, 5, 4), Layer::inside(field, 5, 2, 3)}});
   else if constexpr (std::same_as<P, Lawnmower>)

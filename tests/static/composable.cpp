@@ -44,6 +44,10 @@ static_assert(!plans<archetype::Map, MeanUncertainty> && !plans<archetype::Map, 
 static_assert(plans<archetype::Uncertain<>, MeanUncertainty> && !plans<archetype::Uncertain<>, VarianceReduction>);
 static_assert(plans<archetype::Forecasting<>, VarianceReduction> && !plans<archetype::Forecasting<>, MeanUncertainty>);
 static_assert(plans<OursMap, MeanUncertainty> && plans<OursMap, VarianceReduction> && plans<OursMap, Uninformed>);
+static_assert(plans<archetype::Informative<>, RayEntropy> && plans<archetype::Informative<>, InformationGain>);
+static_assert(!plans<archetype::Uncertain<>, RayEntropy> && !plans<archetype::Uncertain<>, InformationGain>);
+static_assert(plans<archetype::Occupied<archetype::Ranging<>>, Unexplored> && plans<archetype::FullMap, Unexplored> &&
+              !plans<archetype::Occupied<>, Unexplored> && !plans<archetype::Ranging<>, Unexplored>);
 static_assert(plans<CarryMap, MeanUncertainty> && plans<CarryMap, VarianceReduction>);
 
 // A policy whose own form is wrong composes with nothing, and does not break the question.

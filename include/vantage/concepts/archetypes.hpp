@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -85,6 +86,22 @@ class Ranging : public Base {
     const bool hit = view.forward().z() != 0 && depth > 0;
     out.depth.setConstant(camera.height, camera.width,
                           hit ? static_cast<float>(depth) : std::numeric_limits<float>::quiet_NaN());
+  }
+};
+
+/// Draws entropy and expected information gain beside what else it draws: a coin for each look that is missing.
+template <class Base = Uncertain<>>
+class Informative : public Base {
+ public:
+  using Base::render;
+  void render(const View& view, const Camera& camera, Rendering<channel::Entropy>& out) const {
+    const double doubt = this->doubt(this->side(view.position()));
+    out.entropy.setConstant(camera.height, camera.width, static_cast<float>(std::numbers::ln2 * doubt));
+  }
+  void render(const View& view, const Camera& camera, Rendering<channel::InformationGain>& out) const {
+    const auto n = static_cast<double>(this->looks(this->side(view.position())));
+    const double gain = std::numbers::ln2 * (1 / (1 + n) - 1 / (2 + n));
+    out.information_gain.setConstant(camera.height, camera.width, static_cast<float>(gain));
   }
 };
 
@@ -204,8 +221,8 @@ class Refinable : public Base {
 };
 
 /// A map with all of it, in the order in which the layers are put on.
-using FullMap = Persistent<
-    Refinable<Fisher<Field<Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Ranging<Uncertain<>>>>>>>>>>>>;
+using FullMap = Persistent<Refinable<
+    Fisher<Field<Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Informative<Ranging<Uncertain<>>>>>>>>>>>>>;
 
 /// ViewUtility: psi(M, v). Here: views from the right are better, the higher the better.
 struct ViewUtility {

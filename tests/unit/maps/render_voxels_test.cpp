@@ -13,10 +13,12 @@
 
 #include <vantage/core/rng.hpp>
 #include <vantage/core/units.hpp>
+#include <vantage/maps/voxel/voxel_map.hpp>
 
 #include "contract/suite.hpp"
 #include "drawn_voxels.hpp"
 #include "message_of.hpp"
+#include "voxel_scenes.hpp"
 
 namespace vantage {
 namespace {
@@ -172,6 +174,43 @@ TEST(RenderVoxels, BadViewsAreRefused) {
   Rendering<channel::Depth> out;
   EXPECT_THROW(render_voxels(map, Sensor(), 5, view, camera, out), Error);
   EXPECT_THROW(render_voxels(map, Sensor(), 5, views[0], Camera{}, out), Error);
+}
+
+/// That a map says of one voxel what it does to a whole block, and draws what its voxels say.
+template <class Update>
+void expect_own_sensor() {
+  VoxelMap<Update> map({.bounds = test::small_room, .voxel_m = 0.1, .clearance_m = 0.1});
+  const VoxelMap<Update> before = map;
+  const Frame frame = test::random_frame(Rng(3));
+  map.integrate(frame);
+  const auto sensor = map.config().update.one_voxel();
+  int hit = 0, passed = 0;
+  const Eigen::Vector3i n = map.grid().size();
+  for (int z = 0; z < n.z(); ++z)
+    for (int y = 0; y < n.y(); ++y)
+      for (int x = 0; x < n.x(); ++x) {
+        const Eigen::Vector3i v(x, y, z);
+        if (!map.explored(v)) continue;
+        const auto distance = static_cast<float>((map.grid().centre(v) - frame.view.position()).norm());
+        const float l = map.log_odds(v);
+        ++(l > 0 ? hit : passed);
+        ASSERT_NEAR(l, l > 0 ? sensor.after_hit(0, distance) : sensor.after_pass(0, distance), 1e-5);
+      }
+  EXPECT_GT(hit, 100);
+  EXPECT_GT(passed, 100);
+
+  Rendering<channel::Depth, channel::InformationGain, channel::Uncertainty> seen, unseen;
+  map.render(frame.view, frame.camera, seen);
+  before.render(frame.view, frame.camera, unseen);
+  EXPECT_TRUE(unseen.depth.isNaN().all());
+  EXPECT_LT((seen.depth.isNaN()).count(), seen.depth.size() / 20);
+  EXPECT_LT(seen.uncertainty.mean(), unseen.uncertainty.mean());
+  EXPECT_LT(seen.information_gain.mean(), unseen.information_gain.mean());
+  EXPECT_GT(unseen.information_gain.minCoeff(), 0);
+}
+TEST(RenderVoxels, AVoxelMapsOwnSensor) {
+  expect_own_sensor<RayCast>();
+  expect_own_sensor<Projective>();
 }
 
 TEST(OccupancyTable, IsTheLogisticFunctionAndItsEntropy) {

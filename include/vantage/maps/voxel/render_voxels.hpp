@@ -34,6 +34,14 @@ concept VoxelUpdate = requires(const S s, float log_odds, float distance_m) {
   { s.after_pass(log_odds, distance_m) } -> std::convertible_to<float>;
 };
 
+/// What render_voxels draws.
+template <class... Channels>
+inline constexpr bool renders_voxels = sizeof...(Channels) > 0 &&
+                                       ((std::same_as<Channels, channel::Depth> ||
+                                         std::same_as<Channels, channel::Entropy> ||
+                                         std::same_as<Channels, channel::Uncertainty> ||
+                                         std::same_as<Channels, channel::InformationGain>)&&...);
+
 namespace detail {
 
 /// What a pixel's ray has gathered. With p_i the probability that the i-th voxel on the ray is occupied, H_i its
@@ -89,13 +97,9 @@ void for_each_pixel(const Camera& camera, F&& f) {
 /// See detail::RayInformation for the sums. Throws Error unless view and camera are valid. Uses all threads; the same
 /// bits with any number. O(pixels * voxels on a ray).
 template <VoxelLogOdds M, VoxelUpdate S, class... Channels>
-requires(sizeof...(Channels) > 0 &&
-         ((std::same_as<Channels, channel::Depth> || std::same_as<Channels, channel::Entropy> ||
-           std::same_as<Channels, channel::Uncertainty> ||
-           std::same_as<Channels, channel::InformationGain>)&&...)) void render_voxels(const M& map, const S& sensor,
-                                                                                       double range_m, const View& view,
-                                                                                       const Camera& camera,
-                                                                                       Rendering<Channels...>& out) {
+requires(renders_voxels<Channels...>) void render_voxels(const M& map, const S& sensor, double range_m,
+                                                         const View& view, const Camera& camera,
+                                                         Rendering<Channels...>& out) {
   constexpr auto asked = []<class C>(C*) { return (std::same_as<C, Channels> || ...); };
   constexpr bool depth = asked(static_cast<channel::Depth*>(nullptr)),
                  entropy = asked(static_cast<channel::Entropy*>(nullptr)),
