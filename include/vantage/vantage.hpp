@@ -65,7 +65,10 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/planning/rigid_motion.hpp>
+#include <vantage/planning/robot_shape.hpp>
 #include <vantage/planning/straight_line.hpp>
+#include <vantage/planning/voxel_collision.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
 #include <vantage/sampler/lawnmower.hpp>
