@@ -71,6 +71,9 @@ static_assert(alignof(Bvh) <= 16 && alignof(fcl::BVNode<fcl::OBBRSSd>) <= 16 && 
                   alignof(fcl::Contactd) <= 16,
               "the layout of these types must not depend on the machine that a program is built for");
 
+/// Distances that rounding cannot tell from contact [m].
+inline constexpr double touching_m = 1e-8;
+
 /// A point that double precision still resolves to a nanometre.
 inline bool within_reach(const Eigen::Vector3d& p) { return (p.array().abs() <= 1e6).all(); }
 
@@ -292,7 +295,7 @@ class CollisionChecker {
       fcl::distance(scene_.bvh_.get(), Eigen::Isometry3d::Identity(), body_.surface.get(), T_W_R, request, result);
       d = result.min_distance - body_.around_m;
     } catch (const std::exception&) { return {CollisionVerdict::failed}; }
-    if (d <= 0) return {CollisionVerdict::contact};
+    if (d <= detail::touching_m) return {CollisionVerdict::contact};
     if (!(d < 1e9)) return {CollisionVerdict::failed};
     return {CollisionVerdict::free, d};
   }
@@ -336,7 +339,7 @@ inline CollisionCheck CollisionChecker::check(const Eigen::Isometry3d& from, con
     if (std::abs(b.clearance_m - a.clearance_m) > part_m + config_.resolution_m)
       return {CollisionVerdict::failed, 0, a.at};
     const double bound_m = 0.5 * (a.clearance_m + b.clearance_m - part_m);
-    if (bound_m > 0 &&
+    if (bound_m > detail::touching_m &&
         (bound_m >= (1 - config_.clearance_error) * closest.clearance_m || part_m <= config_.resolution_m)) {
       proven_m = std::min(proven_m, bound_m);
       continue;
