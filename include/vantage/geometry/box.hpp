@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -25,12 +24,16 @@ inline double squared_distance(const Box3& box, const Eigen::Vector3d& from, con
   };
   const auto slope = [&](double t) { return excess(t).dot(step); };
   // The square is convex in t, and quadratic between the planes of the box's sides; its slope is linear there.
-  std::array<double, 8> bends = {0, 1};
-  std::size_t n = 2;
+  std::array<double, 8> bends = {0};  // ascending
+  std::size_t n = 1;
   for (int i = 0; i < 3; ++i)
     for (const double side : {box.min()[i], box.max()[i]})
-      if (const double t = (side - from[i]) / step[i]; t > 0 && t < 1) bends[n++] = t;
-  std::sort(bends.begin(), bends.begin() + n);
+      if (const double t = (side - from[i]) / step[i]; t > 0 && t < 1) {
+        std::size_t k = n++;
+        for (; bends[k - 1] > t; --k) bends[k] = bends[k - 1];
+        bends[k] = t;
+      }
+  bends[n++] = 1;
   double before = slope(0), t = 0;
   for (std::size_t k = 1; k < n && before < 0; ++k) {
     const double after = slope(bends[k]);
