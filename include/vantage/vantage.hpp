@@ -84,7 +84,10 @@
 #include <vantage/planning/lattice_moves.hpp>
 #include <vantage/planning/level_view.hpp>
 #include <vantage/planning/passable.hpp>
+#include <vantage/planning/rigid_motion.hpp>
+#include <vantage/planning/robot_shape.hpp>
 #include <vantage/planning/straight_line.hpp>
+#include <vantage/planning/voxel_collision.hpp>
 #include <vantage/planning/voxel_search.hpp>
 #include <vantage/planning/waypoints.hpp>
 #include <vantage/sampler/frontier.hpp>

@@ -3,7 +3,6 @@
 #pragma once
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/convex.h>
-#include <fcl/geometry/shape/sphere.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -66,11 +65,14 @@ struct PathCheck : CollisionCheck {
 namespace detail {
 
 using Bvh = fcl::BVHModel<fcl::OBBRSSd>;
-static_assert(alignof(Bvh) <= 16 && alignof(fcl::BVNode<fcl::OBBRSSd>) <= 16 && alignof(fcl::Sphered) <= 16 &&
-                  alignof(fcl::Convexd) <= 16 && alignof(fcl::DistanceRequestd) <= 16 &&
-                  alignof(fcl::DistanceResultd) <= 16 && alignof(fcl::CollisionRequestd) <= 16 &&
-                  alignof(fcl::CollisionResultd) <= 16 && alignof(fcl::Contactd) <= 16,
+static_assert(alignof(Bvh) <= 16 && alignof(fcl::BVNode<fcl::OBBRSSd>) <= 16 && alignof(fcl::Convexd) <= 16 &&
+                  alignof(fcl::DistanceRequestd) <= 16 && alignof(fcl::DistanceResultd) <= 16 &&
+                  alignof(fcl::CollisionRequestd) <= 16 && alignof(fcl::CollisionResultd) <= 16 &&
+                  alignof(fcl::Contactd) <= 16,
               "the layout of these types must not depend on the machine that a program is built for");
+
+/// Distances that rounding cannot tell from contact [m].
+inline constexpr double touching_m = 1e-8;
 
 /// A point that double precision still resolves to a nanometre.
 inline bool within_reach(const Eigen::Vector3d& p) { return (p.array().abs() <= 1e6).all(); }
@@ -78,8 +80,7 @@ inline bool within_reach(const Eigen::Vector3d& p) { return (p.array().abs() <= 
 /// FCL's hierarchy over triangles. One without area (lower than a micrometre) would be dropped or divide by zero in it:
 /// it becomes one that is a micrometre wide, so that what is there stays there.
 template <class Vertices, class Triangles>
-std::shared_ptr<const Bvh> make_bvh(const Vertices& vertices, const Triangles& triangles) {
-  constexpr double width_m = 1e-6;
+std::shared_ptr<const Bvh> make_bvh(const Vertices& vertices, const Triangles& triangles, double width_m = 1e-6) {
   std::vector<Eigen::Vector3d> points;
   std::vector<fcl::Triangle> corners;
   points.reserve(vertices.size());
@@ -122,9 +123,10 @@ inline void check_collision_mesh(const TriangleMesh& mesh, std::string_view wher
 
 /// A shape as FCL has it.
 struct RobotBody {
-  std::shared_ptr<const fcl::CollisionGeometryd> surface;  ///< what distances are measured to
-  std::shared_ptr<const fcl::CollisionGeometryd> solid;    ///< what may hold a thing without touching it; or none
-  double reach_m = 0;                                      ///< of its farthest point from the frame's origin
+  std::shared_ptr<const Bvh> surface;         ///< what distances are measured to
+  double around_m = 0;                        ///< how far the body reaches beyond that
+  std::shared_ptr<const fcl::Convexd> solid;  ///< what may hold a thing without touching it; or none
+  double reach_m = 0;                         ///< of its farthest point from the frame's origin
 
   explicit RobotBody(const RobotShape& shape) {
     std::visit([&](const auto& s) { make(s); }, shape);
@@ -137,8 +139,10 @@ struct RobotBody {
     Check check(where);
     check(sphere.radius_m >= 0 && sphere.radius_m <= 1e6, "radius_m", sphere.radius_m, "0 to 1e6");
     check.done();
-    surface = std::make_shared<fcl::Sphered>(sphere.radius_m);
-    reach_m = sphere.radius_m;
+    // A speck, and what is around it: of FCL's own sphere that is in contact, the distance is never written.
+    surface = make_bvh(std::vector<Eigen::Vector3d>(1, Eigen::Vector3d::Zero()),
+                       std::vector<std::array<std::uint32_t, 3>>(1), 1e-9);
+    reach_m = around_m = sphere.radius_m;
   }
   void make(const shape::Box& box) {
     const Eigen::Vector3d& half = box.half_extents_m;
@@ -284,16 +288,15 @@ class CollisionChecker {
   }
   /// From the scene to the body's surface.
   [[nodiscard]] CollisionCheck distance(const Eigen::Isometry3d& T_W_R) const {
-    constexpr double nothing = std::numeric_limits<double>::max();
-    double d = nothing;
+    double d = 0;
     try {
       const fcl::DistanceRequestd request;
-      fcl::DistanceResultd result(nothing);
+      fcl::DistanceResultd result;
       fcl::distance(scene_.bvh_.get(), Eigen::Isometry3d::Identity(), body_.surface.get(), T_W_R, request, result);
-      d = result.min_distance;
+      d = result.min_distance - body_.around_m;
     } catch (const std::exception&) { return {CollisionVerdict::failed}; }
-    if (d <= 0) return {CollisionVerdict::contact};
-    if (!(d < nothing)) return {CollisionVerdict::failed};
+    if (d <= detail::touching_m) return {CollisionVerdict::contact};
+    if (!(d < 1e9)) return {CollisionVerdict::failed};
     return {CollisionVerdict::free, d};
   }
 
@@ -336,7 +339,7 @@ inline CollisionCheck CollisionChecker::check(const Eigen::Isometry3d& from, con
     if (std::abs(b.clearance_m - a.clearance_m) > part_m + config_.resolution_m)
       return {CollisionVerdict::failed, 0, a.at};
     const double bound_m = 0.5 * (a.clearance_m + b.clearance_m - part_m);
-    if (bound_m > 0 &&
+    if (bound_m > detail::touching_m &&
         (bound_m >= (1 - config_.clearance_error) * closest.clearance_m || part_m <= config_.resolution_m)) {
       proven_m = std::min(proven_m, bound_m);
       continue;
