@@ -31,8 +31,8 @@ namespace vantage {
 /// A cluster that no position sees gets no view. A voxel that several measurements looked at from such a position, and
 /// that is a frontier still, will not be resolved by one more and gets none either.
 ///
-/// Proposes nothing only when every voxel of every cluster was tried in vain: the exploration is over. Costs some
-/// microseconds a candidate and a sort of the frontier.
+/// Proposes nothing only when every voxel of every cluster was tried in vain, from 64 positions each: the exploration
+/// is over. Costs some microseconds a candidate and a sort of the frontier.
 class Frontier {
  public:
   using MapNeeds = Needs<need::Navigable, need::Regions<frontier>>;
@@ -60,17 +60,17 @@ class Frontier {
   template <NavigableMap M>
   requires RegionMap<M, frontier> Candidates sample(const M& map, const Situation& q, const Score&, Rng& rng)
   const {
-    constexpr int tries = 4;  // voxels of a cluster a turn
+    constexpr int turn = 4;  // voxels of a cluster
+    const auto most = static_cast<std::size_t>(config_.candidates);
     const std::vector<Region> regions = map.regions(frontier{});
-    std::vector<Cluster> open = clusters(regions, map.grid(), q.here.position());
     Candidates c;
     std::vector<Eigen::Vector3i> drawn;
-    const auto find_view = [&](Cluster& cluster) {
-      for (int i = 0; i < tries && !cluster.left.empty(); ++i) {
+    const auto find_view = [&](Cluster& cluster, std::size_t positions) {
+      for (int i = 0; i < turn && !cluster.left.empty(); ++i) {
         std::swap(cluster.left[rng.index(cluster.left.size())], cluster.left.back());
         const Region& target = regions[cluster.left.back()];
         cluster.left.pop_back();
-        draw_in_cone(map, target, config_.cone, tries, rng, drawn);
+        draw_in_cone(map, target, config_.cone, positions, rng, drawn);
         const auto seeing = std::find_if(drawn.begin(), drawn.end(),
                                          [&](const Eigen::Vector3i& from) { return sees(map, from, target.centre); });
         if (seeing == drawn.end() || looked_at(map, target, q.visited)) continue;
@@ -79,16 +79,19 @@ class Frontier {
       }
       return false;
     };
-    const auto most = static_cast<std::size_t>(config_.candidates);
-    while (!open.empty() && c.views.size() < most) {
-      std::vector<Cluster> next;
-      for (Cluster& cluster : open) {
-        if (c.views.size() == most) break;
-        // A turn in vain is a cluster's last, unless there is nothing else to go to.
-        const bool found = find_view(cluster);
-        if (!cluster.left.empty() && (found || c.views.empty())) next.push_back(std::move(cluster));
+    // A turn in vain is a cluster's last: there is enough else to go to. If there is not, all are searched to the end.
+    for (const bool thorough : {false, true}) {
+      if (!c.views.empty()) break;
+      std::vector<Cluster> open = clusters(regions, map.grid(), q.here.position());
+      while (!open.empty() && c.views.size() < most) {
+        std::vector<Cluster> next;
+        for (Cluster& cluster : open) {
+          if (c.views.size() == most) break;
+          const bool found = find_view(cluster, thorough ? 64 : 4);
+          if (!cluster.left.empty() && (found || (thorough && c.views.empty()))) next.push_back(std::move(cluster));
+        }
+        open = std::move(next);
       }
-      open = std::move(next);
     }
     return c;
   }
