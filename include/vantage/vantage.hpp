@@ -66,7 +66,13 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/planning/a_star.hpp>
+#include <vantage/planning/lattice_moves.hpp>
+#include <vantage/planning/level_view.hpp>
+#include <vantage/planning/passable.hpp>
 #include <vantage/planning/straight_line.hpp>
+#include <vantage/planning/voxel_search.hpp>
+#include <vantage/planning/waypoints.hpp>
 #include <vantage/sampler/frontier.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
