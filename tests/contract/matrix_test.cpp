@@ -108,7 +108,7 @@ MissionState three_steps() {
   NbvLoop loop{MapFixture<M>::make(), make<U>(), make<Sa>(), make<Se>()};
   typename MapFixture<M>::World world;
   // One measurement first: some samplers go on from what is known.
-  const std::vector<View> first = {nadir(2.5, 2.5, 2.5)};
+  const std::vector<View> first = {MapFixture<M>::views().front()};
   return loop.run(world, nadir(1, 1, 3), first, Measurements(4), ModelledClock{}, Rng{7});
 }
 

@@ -4,6 +4,7 @@
 #include <concepts>
 
 #include <vantage/concepts/archetypes.hpp>
+#include <vantage/concepts/explain.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
 #include <vantage/geometry/view.hpp>
@@ -82,6 +83,12 @@ P make() {
     return AnyOf{MissionTime(300), CoverageReached(0.9)};
   else
     return P{};
+}
+
+/// Where a sampler's robot is: above the field, or, if the sampler asks where it fits, inside of the archetypes' box.
+template <class Sampler>
+View start_of() {
+  return needs_met<archetype::Map, Sampler> ? nadir(10, 10, 3) : nadir(-0.5, 0.1, 0.9);
 }
 
 /// Whether all that a sampler proposes looks straight down, as the field maps' sensor must.

@@ -39,7 +39,7 @@ template <class S>
 class SamplerContract : public testing::Test {
  protected:
   S sampler = make<S>();
-  Situation start = {.here = nadir(10, 10, 3)};
+  Situation start = {.here = start_of<S>()};
 };
 TYPED_TEST_SUITE(SamplerContract, Suite<Samplers>);
 

@@ -19,6 +19,8 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/view.hpp>
 #include <vantage/geometry/voxel_line.hpp>
+#include <vantage/planning/passable.hpp>
+#include <vantage/planning/reachable_voxels.hpp>
 #include <vantage/sampler/view_cone.hpp>
 
 namespace vantage {
@@ -32,7 +34,8 @@ namespace vantage {
 /// that is a frontier still, will not be resolved by one more and gets none either.
 ///
 /// Proposes nothing only when every voxel of every cluster was tried in vain, from 64 positions each: the exploration
-/// is over. Costs some microseconds a candidate and a sort of the frontier.
+/// is over. So it does for a robot outside of the grid. Costs some microseconds a candidate, a sort of the frontier,
+/// and what ReachableVoxels costs.
 class Frontier {
  public:
   using MapNeeds = Needs<need::Navigable, need::Regions<frontier>>;
@@ -41,6 +44,7 @@ class Frontier {
     ViewCone cone = {};           ///< from where a frontier voxel is looked at
     double cell_m = 1;            ///< edge of the cells that part the frontier into clusters, > 0
     double smallest_m2 = 0.1;     ///< clusters of less area are left out (a voxel counts as one of its faces), >= 0
+    double own_ball_m = 0.3;      ///< around the robot, open because it is there, as AStar's, >= 0
     int most_looks = 3;           ///< measurements that may look at a voxel in vain, >= 1
     double looked_rad = deg(15);  ///< a measurement looked at what is no farther from its optical axis, in (0, pi]
   };
@@ -52,6 +56,7 @@ class Frontier {
     config.cone.check(check);
     check.positive("cell_m", config.cell_m);
     check.not_negative("smallest_m2", config.smallest_m2);
+    check.not_negative("own_ball_m", config.own_ball_m);
     check(config.most_looks >= 1, "most_looks", config.most_looks, ">= 1");
     check(config.looked_rad > 0 && config.looked_rad <= deg(180), "looked_rad", config.looked_rad, "in (0, pi]");
     check.done();
@@ -64,13 +69,17 @@ class Frontier {
     const auto most = static_cast<std::size_t>(config_.candidates);
     const std::vector<Region> regions = map.regions(frontier{});
     Candidates c;
+    if (regions.empty() || !map.grid().box().contains(q.here.position())) return c;
+    const Eigen::Vector3i start = map.grid().voxel_at(q.here.position());
+    const ReachableVoxels reachable(Passable(map, start, config_.own_ball_m), start);
+    const Within<M> within{map, reachable};
     std::vector<Eigen::Vector3i> drawn;
     const auto find_view = [&](Cluster& cluster, std::size_t positions) {
       for (int i = 0; i < turn && !cluster.left.empty(); ++i) {
         std::swap(cluster.left[rng.index(cluster.left.size())], cluster.left.back());
         const Region& target = regions[cluster.left.back()];
         cluster.left.pop_back();
-        draw_in_cone(map, target, config_.cone, positions, rng, drawn);
+        draw_in_cone(within, target, config_.cone, positions, rng, drawn);
         const auto seeing = std::find_if(drawn.begin(), drawn.end(),
                                          [&](const Eigen::Vector3i& from) { return sees(map, from, target.centre); });
         if (seeing == drawn.end() || looked_at(map, target, q.visited)) continue;
@@ -97,6 +106,19 @@ class Frontier {
   }
 
  private:
+  /// Navigable voxels within reach.
+  template <class M>
+  struct Within {
+    const M& map;
+    const ReachableVoxels& reachable;
+    [[nodiscard]] const VoxelGrid& grid() const { return map.grid(); }
+    [[nodiscard]] bool navigable(const Eigen::Vector3i& voxel) const {
+      return reachable(voxel) && map.navigable(voxel);
+    }
+    [[nodiscard]] VoxelBits navigable_in(const Eigen::Vector3i& block) const {
+      return reachable.in(block)&map.navigable_in(block);
+    }
+  };
   struct Cluster {
     double distance_m;              ///< from the robot to the nearest region
     std::vector<std::size_t> left;  ///< regions not tried yet
