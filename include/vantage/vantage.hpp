@@ -83,9 +83,14 @@
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/lattice_moves.hpp>
 #include <vantage/planning/level_view.hpp>
+#include <vantage/planning/line_of_sight.hpp>
 #include <vantage/planning/passable.hpp>
+#include <vantage/planning/poses.hpp>
+#include <vantage/planning/reachable_voxels.hpp>
 #include <vantage/planning/rigid_motion.hpp>
 #include <vantage/planning/robot_shape.hpp>
+#include <vantage/planning/rrt_star.hpp>
+#include <vantage/planning/shortcut.hpp>
 #include <vantage/planning/straight_line.hpp>
 #include <vantage/planning/voxel_collision.hpp>
 #include <vantage/planning/voxel_search.hpp>
@@ -102,8 +107,10 @@
 #include <vantage/sampler/spiral.hpp>
 #include <vantage/sampler/utility_weighted.hpp>
 #include <vantage/sampler/view_cone.hpp>
+#include <vantage/sampler/view_tree.hpp>
 #include <vantage/selector/arg_max.hpp>
 #include <vantage/selector/first_best.hpp>
+#include <vantage/selector/first_of_branch.hpp>
 #include <vantage/selector/in_order.hpp>
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>

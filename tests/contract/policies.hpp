@@ -4,17 +4,23 @@
 #include <concepts>
 
 #include <vantage/concepts/archetypes.hpp>
+#include <vantage/concepts/explain.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
 #include <vantage/geometry/view.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/planning/straight_line.hpp>
+#include <vantage/sampler/frontier.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
 #include <vantage/sampler/lawnmower.hpp>
+#include <vantage/sampler/level.hpp>
+#include <vantage/sampler/local.hpp>
 #include <vantage/sampler/pool.hpp>
+#include <vantage/sampler/roi_and_local.hpp>
 #include <vantage/sampler/spiral.hpp>
+#include <vantage/sampler/utility_weighted.hpp>
 #include <vantage/selector/arg_max.hpp>
 #include <vantage/selector/in_order.hpp>
 #include <vantage/selector/minus_cost.hpp>
@@ -37,7 +43,8 @@ namespace vantage::test {
 using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
                        Uninformed, Unexplored, RayEntropy, InformationGain, archetype::ViewUtility,
                        archetype::HistoryUtility, archetype::PreparedUtility>;
-using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, archetype::Sampler>;
+using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, Local, Frontier, RoiAndLocal<frontier>,
+                      UtilityWeighted<Lattice>, Level<Frontier>, archetype::Sampler>;
 using Selectors = List<ArgMax, InOrder, PerFlightTime, MinusCost<>, TravelTradeoff<>, MinusCost<archetype::Router>,
                        archetype::Selector>;
 using Routers = List<StraightLine, archetype::Router>;
@@ -62,6 +69,12 @@ P make() {
     return Spiral({.centre = {10, 10, 0}, .radius_m = 3});
   else if constexpr (std::same_as<P, Pool>)
     return Pool({nadir(2.5, 2.5, 2.5), nadir(10, 10, 2), nadir(17.5, 3, 5), nadir(19.9, 19.9, 1), nadir(40, 40, 2)});
+  else if constexpr (std::same_as<P, Frontier>)
+    return Frontier({.smallest_m2 = 0});
+  else if constexpr (std::same_as<P, Level<Frontier>>)
+    return Level(make<Frontier>());
+  else if constexpr (std::same_as<P, UtilityWeighted<Lattice>>)
+    return UtilityWeighted(make<Lattice>());
   else if constexpr (std::same_as<P, MissionTime>)
     return MissionTime(300);
   else if constexpr (std::same_as<P, Measurements>)
@@ -76,6 +89,12 @@ P make() {
     return AnyOf{MissionTime(300), CoverageReached(0.9)};
   else
     return P{};
+}
+
+/// Where a sampler's robot is: above the field, or, if the sampler asks where it fits, inside of the archetypes' box.
+template <class Sampler>
+View start_of() {
+  return needs_met<archetype::Map, Sampler> ? nadir(10, 10, 3) : nadir(-0.5, 0.1, 0.9);
 }
 
 /// Whether all that a sampler proposes looks straight down, as the field maps' sensor must.

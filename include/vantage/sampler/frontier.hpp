@@ -19,6 +19,8 @@
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/view.hpp>
 #include <vantage/geometry/voxel_line.hpp>
+#include <vantage/planning/passable.hpp>
+#include <vantage/planning/reachable_voxels.hpp>
 #include <vantage/sampler/view_cone.hpp>
 
 namespace vantage {
@@ -31,8 +33,9 @@ namespace vantage {
 /// A cluster that no position sees gets no view. A voxel that several measurements looked at from such a position, and
 /// that is a frontier still, will not be resolved by one more and gets none either.
 ///
-/// Proposes nothing only when every voxel of every cluster was tried in vain: the exploration is over. Costs some
-/// microseconds a candidate and a sort of the frontier.
+/// Proposes nothing only when every voxel of every cluster was tried in vain, from 64 positions each: the exploration
+/// is over. So it does for a robot outside of the grid. Costs some microseconds a candidate, a sort of the frontier,
+/// and what ReachableVoxels costs.
 class Frontier {
  public:
   using MapNeeds = Needs<need::Navigable, need::Regions<frontier>>;
@@ -41,6 +44,7 @@ class Frontier {
     ViewCone cone = {};           ///< from where a frontier voxel is looked at
     double cell_m = 1;            ///< edge of the cells that part the frontier into clusters, > 0
     double smallest_m2 = 0.1;     ///< clusters of less area are left out (a voxel counts as one of its faces), >= 0
+    double own_ball_m = 0.3;      ///< around the robot, open because it is there, as AStar's, >= 0
     int most_looks = 3;           ///< measurements that may look at a voxel in vain, >= 1
     double looked_rad = deg(15);  ///< a measurement looked at what is no farther from its optical axis, in (0, pi]
   };
@@ -52,6 +56,7 @@ class Frontier {
     config.cone.check(check);
     check.positive("cell_m", config.cell_m);
     check.not_negative("smallest_m2", config.smallest_m2);
+    check.not_negative("own_ball_m", config.own_ball_m);
     check(config.most_looks >= 1, "most_looks", config.most_looks, ">= 1");
     check(config.looked_rad > 0 && config.looked_rad <= deg(180), "looked_rad", config.looked_rad, "in (0, pi]");
     check.done();
@@ -60,17 +65,21 @@ class Frontier {
   template <NavigableMap M>
   requires RegionMap<M, frontier> Candidates sample(const M& map, const Situation& q, const Score&, Rng& rng)
   const {
-    constexpr int tries = 4;  // voxels of a cluster a turn
+    constexpr int turn = 4;  // voxels of a cluster
+    const auto most = static_cast<std::size_t>(config_.candidates);
     const std::vector<Region> regions = map.regions(frontier{});
-    std::vector<Cluster> open = clusters(regions, map.grid(), q.here.position());
     Candidates c;
+    if (regions.empty() || !map.grid().box().contains(q.here.position())) return c;
+    const Eigen::Vector3i start = map.grid().voxel_at(q.here.position());
+    const ReachableVoxels reachable(Passable(map, start, config_.own_ball_m), start);
+    const Within<M> within{map, reachable};
     std::vector<Eigen::Vector3i> drawn;
-    const auto find_view = [&](Cluster& cluster) {
-      for (int i = 0; i < tries && !cluster.left.empty(); ++i) {
+    const auto find_view = [&](Cluster& cluster, std::size_t positions) {
+      for (int i = 0; i < turn && !cluster.left.empty(); ++i) {
         std::swap(cluster.left[rng.index(cluster.left.size())], cluster.left.back());
         const Region& target = regions[cluster.left.back()];
         cluster.left.pop_back();
-        draw_in_cone(map, target, config_.cone, tries, rng, drawn);
+        draw_in_cone(within, target, config_.cone, positions, rng, drawn);
         const auto seeing = std::find_if(drawn.begin(), drawn.end(),
                                          [&](const Eigen::Vector3i& from) { return sees(map, from, target.centre); });
         if (seeing == drawn.end() || looked_at(map, target, q.visited)) continue;
@@ -79,21 +88,37 @@ class Frontier {
       }
       return false;
     };
-    const auto most = static_cast<std::size_t>(config_.candidates);
-    while (!open.empty() && c.views.size() < most) {
-      std::vector<Cluster> next;
-      for (Cluster& cluster : open) {
-        if (c.views.size() == most) break;
-        // A turn in vain is a cluster's last, unless there is nothing else to go to.
-        const bool found = find_view(cluster);
-        if (!cluster.left.empty() && (found || c.views.empty())) next.push_back(std::move(cluster));
+    // A turn in vain is a cluster's last: there is enough else to go to. If there is not, all are searched to the end.
+    for (const bool thorough : {false, true}) {
+      if (!c.views.empty()) break;
+      std::vector<Cluster> open = clusters(regions, map.grid(), q.here.position());
+      while (!open.empty() && c.views.size() < most) {
+        std::vector<Cluster> next;
+        for (Cluster& cluster : open) {
+          if (c.views.size() == most) break;
+          const bool found = find_view(cluster, thorough ? 64 : 4);
+          if (!cluster.left.empty() && (found || (thorough && c.views.empty()))) next.push_back(std::move(cluster));
+        }
+        open = std::move(next);
       }
-      open = std::move(next);
     }
     return c;
   }
 
  private:
+  /// Navigable voxels within reach.
+  template <class M>
+  struct Within {
+    const M& map;
+    const ReachableVoxels& reachable;
+    [[nodiscard]] const VoxelGrid& grid() const { return map.grid(); }
+    [[nodiscard]] bool navigable(const Eigen::Vector3i& voxel) const {
+      return reachable(voxel) && map.navigable(voxel);
+    }
+    [[nodiscard]] VoxelBits navigable_in(const Eigen::Vector3i& block) const {
+      return reachable.in(block)&map.navigable_in(block);
+    }
+  };
   struct Cluster {
     double distance_m;              ///< from the robot to the nearest region
     std::vector<std::size_t> left;  ///< regions not tried yet

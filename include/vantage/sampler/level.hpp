@@ -16,6 +16,7 @@
 #include <vantage/core/rng.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/view.hpp>
+#include <vantage/planning/level_view.hpp>
 
 namespace vantage {
 
@@ -53,17 +54,10 @@ class Level {
   }
   /// The view that such a robot takes instead.
   [[nodiscard]] View level(const View& view) const {
-    const Eigen::Vector3d forward = view.forward();
-    const Eigen::Vector3d eye = view.position();
-    const double flat = forward.head<2>().norm();
-    // Looking straight down, the top of the image is ahead of the robot; looking straight up, its bottom.
-    const Eigen::Vector3d image_down = view.T_W_C.linear().col(1);
-    Eigen::Vector2d ahead = forward.head<2>();
-    if (!(flat > 1e-9)) ahead = (forward.z() < 0 ? -1 : 1) * image_down.head<2>();
-    const double pitch_rad = std::clamp(std::atan2(forward.z(), flat), -config_.max_pitch_rad, config_.max_pitch_rad);
-    Eigen::Vector3d direction;
-    direction << std::cos(pitch_rad) * ahead.normalized(), std::sin(pitch_rad);
-    return look_at(eye, eye + direction);
+    const Eigen::Vector3d forward = view.forward(), eye = view.position();
+    const double pitch_rad =
+        std::clamp(std::atan2(forward.z(), forward.head<2>().norm()), -config_.max_pitch_rad, config_.max_pitch_rad);
+    return look_at(eye, eye + std::cos(pitch_rad) * heading(view) + std::sin(pitch_rad) * Eigen::Vector3d::UnitZ());
   }
 
  private:

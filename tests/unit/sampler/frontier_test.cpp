@@ -112,6 +112,28 @@ TEST(FrontierSampler, NothingWhereNoPositionSeesIt) {
   EXPECT_TRUE(test::sample(Frontier{}, map, {.here = here}, 1).views.empty());
 }
 
+TEST(FrontierSampler, NothingWhereTheRobotCannotGo) {
+  // A window between two rooms: what is unknown in the far one can be seen, but only from there.
+  test::DrawnFrontiers map(VoxelGrid::dividing({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(6, 3, 2)}, 0.2), 0.2);
+  for (int z = 0; z < 10; ++z)
+    for (int y = 0; y < 15; ++y)
+      for (int x = 0; x < 26; ++x) map.draw({x, y, z}, x == 11 && (y != 7 || z > 5) ? Space::occupied : Space::free);
+  EXPECT_TRUE(test::sample(Frontier{}, map, {.here = here}, 1).views.empty());
+  const View there = look_at({3.5, 1.5, 1}, {5, 1.5, 1});
+  EXPECT_FALSE(test::sample(Frontier{}, map, {.here = there}, 1).views.empty());
+  EXPECT_TRUE(test::sample(Frontier{}, map, {.here = look_at({-1, 1.5, 1}, {5, 1.5, 1})}, 1).views.empty());
+}
+
+TEST(FrontierSampler, ARobotThatDoesNotFitLeavesItsPlace) {
+  // Unknown around the robot: its own ball leads out.
+  test::DrawnFrontiers map = test::two_rooms();
+  const Eigen::Vector3i start(4, 7, 5);
+  for (int k = 0; k < 27; ++k) map.draw(start + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1), Space::unknown);
+  const View stuck = look_at(map.grid().centre(start), {5, 1.5, 1});
+  EXPECT_FALSE(test::sample(Frontier({.own_ball_m = 0.5}), map, {.here = stuck}, 1).views.empty());
+  EXPECT_TRUE(test::sample(Frontier({.own_ball_m = 0}), map, {.here = stuck}, 1).views.empty());
+}
+
 TEST(FrontierSampler, FindsTheLittleThatIsSeenOfMuch) {
   // Of a wide frontier only little can be seen, through a hole in the wall before it.
   test::DrawnFrontiers map(VoxelGrid::dividing({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, 3, 2)}, 0.2), 0.3);
@@ -162,10 +184,16 @@ TEST(FrontierSampler, SameSeedSameViewsOtherSeedOthers) {
 
 TEST(FrontierSampler, RefusesBadConfigsAllAtOnce) {
   const std::string message = test::message_of([] {
-    Frontier(
-        {.candidates = 0, .cone = {.nearest_m = -1}, .cell_m = 0, .smallest_m2 = -1, .most_looks = 0, .looked_rad = 0});
+    Frontier({.candidates = 0,
+              .cone = {.nearest_m = -1},
+              .cell_m = 0,
+              .smallest_m2 = -1,
+              .own_ball_m = -1,
+              .most_looks = 0,
+              .looked_rad = 0});
   });
-  for (const char* name : {"candidates", "cone.nearest_m", "cell_m", "smallest_m2", "most_looks", "looked_rad"})
+  for (const char* name :
+       {"candidates", "cone.nearest_m", "cell_m", "smallest_m2", "own_ball_m", "most_looks", "looked_rad"})
     EXPECT_NE(message.find(name), std::string::npos) << message;
 }
 
