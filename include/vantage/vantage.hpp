@@ -68,7 +68,11 @@
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/lattice_moves.hpp>
 #include <vantage/planning/level_view.hpp>
+#include <vantage/planning/line_of_sight.hpp>
 #include <vantage/planning/passable.hpp>
+#include <vantage/planning/poses.hpp>
+#include <vantage/planning/rrt_star.hpp>
+#include <vantage/planning/shortcut.hpp>
 #include <vantage/planning/straight_line.hpp>
 #include <vantage/planning/voxel_search.hpp>
 #include <vantage/planning/waypoints.hpp>
@@ -78,8 +82,11 @@
 #include <vantage/sampler/pattern.hpp>
 #include <vantage/sampler/pool.hpp>
 #include <vantage/sampler/spiral.hpp>
+#include <vantage/sampler/view_tree.hpp>
+#include <vantage/sampler/yaw_only.hpp>
 #include <vantage/selector/arg_max.hpp>
 #include <vantage/selector/first_best.hpp>
+#include <vantage/selector/first_of_branch.hpp>
 #include <vantage/selector/in_order.hpp>
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>

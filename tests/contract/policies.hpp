@@ -9,6 +9,8 @@
 #include <vantage/geometry/view.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/stop_rules.hpp>
+#include <vantage/planning/a_star.hpp>
+#include <vantage/planning/shortcut.hpp>
 #include <vantage/planning/straight_line.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
@@ -16,6 +18,7 @@
 #include <vantage/sampler/pool.hpp>
 #include <vantage/sampler/spiral.hpp>
 #include <vantage/selector/arg_max.hpp>
+#include <vantage/selector/first_of_branch.hpp>
 #include <vantage/selector/in_order.hpp>
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>
@@ -34,9 +37,9 @@ namespace vantage::test {
 using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
                        Uninformed, archetype::ViewUtility, archetype::HistoryUtility, archetype::PreparedUtility>;
 using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, archetype::Sampler>;
-using Selectors = List<ArgMax, InOrder, PerFlightTime, MinusCost<>, TravelTradeoff<>, MinusCost<archetype::Router>,
-                       archetype::Selector>;
-using Routers = List<StraightLine, archetype::Router>;
+using Selectors = List<ArgMax, InOrder, FirstOfBranch, PerFlightTime, MinusCost<>, TravelTradeoff<>,
+                       MinusCost<archetype::Router>, archetype::Selector>;
+using Routers = List<StraightLine, AStar, Shortcut<AStar>, archetype::Router>;
 using StopRules = List<MissionTime, Measurements, Travel, CoverageReached, UtilityBelow,
                        AnyOf<MissionTime, CoverageReached>, archetype::StopRule>;
 using Clocks = List<MeasuredClock, ModelledClock, WallClock, archetype::Clock>;
