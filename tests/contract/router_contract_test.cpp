@@ -22,16 +22,17 @@ template <class R>
 class RouterContract : public testing::Test {
  protected:
   R router = make<R>();
-  // Free, but for a shaft around (0, 0, 10) that has no opening, and a wall with a window.
-  DrawnVoxels map{VoxelGrid::on_lattice({Eigen::Vector3d(-8, -8, -4), Eigen::Vector3d(8, 8, 12)}, 0.5), 0.5};
+  // Free, but for a closed shell around (0, 0, 10), and a wall with a gap at its end.
+  DrawnVoxels map{VoxelGrid::on_lattice({Eigen::Vector3d(-8, -8, -4), Eigen::Vector3d(8, 8, 13)}, 1), 1};
   View from = nadir(1, 2, 3);
   std::vector<View> goals = {nadir(1, 2, 3), nadir(4, 6, 3), nadir(-1, 2, 1), nadir(0, 0, 10), nadir(1.1, 2.1, 3.1)};
   RouterContract() {
     map.draw_all([&](const Eigen::Vector3i& v) {
       const Eigen::Vector3d p = map.grid().centre(v);
       const double aside = std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z() - 10)});
-      const bool shaft = aside > 1.5 && aside<2, wall = p.y()> 4 && p.y() < 4.5 && p.x() > -5;
-      return shaft || wall ? Space::occupied : Space::free;
+      const bool in_shell = aside > 1 && aside < 2;
+      const bool in_wall = p.y() > 4 && p.y() < 5 && p.x() > -5;
+      return in_shell || in_wall ? Space::occupied : Space::free;
     });
   }
 };
