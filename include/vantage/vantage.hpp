@@ -108,6 +108,7 @@
 #include <vantage/sampler/utility_weighted.hpp>
 #include <vantage/sampler/view_cone.hpp>
 #include <vantage/sampler/view_tree.hpp>
+#include <vantage/sampler/yaw_only.hpp>
 #include <vantage/selector/arg_max.hpp>
 #include <vantage/selector/first_best.hpp>
 #include <vantage/selector/first_of_branch.hpp>

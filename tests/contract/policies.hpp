@@ -10,6 +10,8 @@
 #include <vantage/geometry/view.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/stop_rules.hpp>
+#include <vantage/planning/a_star.hpp>
+#include <vantage/planning/shortcut.hpp>
 #include <vantage/planning/straight_line.hpp>
 #include <vantage/sampler/frontier.hpp>
 #include <vantage/sampler/hemisphere.hpp>
@@ -21,7 +23,9 @@
 #include <vantage/sampler/roi_and_local.hpp>
 #include <vantage/sampler/spiral.hpp>
 #include <vantage/sampler/utility_weighted.hpp>
+#include <vantage/sampler/view_tree.hpp>
 #include <vantage/selector/arg_max.hpp>
+#include <vantage/selector/first_of_branch.hpp>
 #include <vantage/selector/in_order.hpp>
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>
@@ -43,11 +47,11 @@ namespace vantage::test {
 using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
                        Uninformed, Unexplored, RayEntropy, InformationGain, archetype::ViewUtility,
                        archetype::HistoryUtility, archetype::PreparedUtility>;
-using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, Local, Frontier, RoiAndLocal<frontier>,
+using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, Local, Frontier, RoiAndLocal<frontier>, ViewTree,
                       UtilityWeighted<Lattice>, Level<Frontier>, archetype::Sampler>;
-using Selectors = List<ArgMax, InOrder, PerFlightTime, MinusCost<>, TravelTradeoff<>, MinusCost<archetype::Router>,
-                       archetype::Selector>;
-using Routers = List<StraightLine, archetype::Router>;
+using Selectors = List<ArgMax, InOrder, FirstOfBranch, PerFlightTime, MinusCost<>, TravelTradeoff<>,
+                       MinusCost<archetype::Router>, archetype::Selector>;
+using Routers = List<StraightLine, AStar, Shortcut<AStar>, archetype::Router>;
 using StopRules = List<MissionTime, Measurements, Travel, CoverageReached, UtilityBelow,
                        AnyOf<MissionTime, CoverageReached>, archetype::StopRule>;
 using Clocks = List<MeasuredClock, ModelledClock, WallClock, archetype::Clock>;

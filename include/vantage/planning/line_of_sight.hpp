@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <Eigen/Core>
 
@@ -23,30 +21,30 @@ bool every_voxel_on(const VoxelGrid& grid, const Eigen::Vector3d& a, const Eigen
   constexpr double tolerance = 1e-9;
   const Eigen::Array3d from = (a - grid.origin()).cwiseQuotient(grid.voxel_m()),
                        to = (b - grid.origin()).cwiseQuotient(grid.voxel_m()), along = to - from;
-  const auto touched = [&](const Eigen::Array3d& low, const Eigen::Array3d& high) {
-    const Eigen::Array3i first = (low.min(high) - tolerance).floor().cast<int>(),
-                         last = (low.max(high) + tolerance).floor().cast<int>();
+  const auto at = [&](const Eigen::Array3d& p) {
+    const Eigen::Array3i first = (p - tolerance).floor().cast<int>(), last = (p + tolerance).floor().cast<int>();
     for (int z = first.z(); z <= last.z(); ++z)
       for (int y = first.y(); y <= last.y(); ++y)
         for (int x = first.x(); x <= last.x(); ++x)
           if (!f(Eigen::Vector3i(x, y, z))) return false;
     return true;
   };
-  // From border to border of whatever axis: each piece lies within one voxel, but for its ends.
-  Eigen::Array3d border, at = from;
+  // From border to border of whatever axis: on a border meets what is on both sides of it, between two only one voxel
+  // (or those on either side of a border along the segment).
+  Eigen::Array3d border;
   for (int i = 0; i < 3; ++i) border[i] = along[i] > 0 ? std::floor(from[i]) + 1 : std::ceil(from[i]) - 1;
+  if (!at(from)) return false;
   for (double t = 0; t < 1;) {
-    Eigen::Array3d when;
+    Eigen::Array3d when = Eigen::Array3d::Constant(1);
     for (int i = 0; i < 3; ++i)
-      when[i] = along[i] != 0 ? (border[i] - from[i]) / along[i] : std::numeric_limits<double>::infinity();
-    t = std::min(1.0, when.minCoeff());
-    const Eigen::Array3d next = t < 1 ? Eigen::Array3d(from + t * along) : to;
-    if (!touched(at, next)) return false;
+      if (along[i] != 0) when[i] = std::min(1.0, (border[i] - from[i]) / along[i]);
+    const double next = when.minCoeff();
+    if (!at(from + 0.5 * (t + next) * along) || !at(next < 1 ? Eigen::Array3d(from + next * along) : to)) return false;
     for (int i = 0; i < 3; ++i)
-      if (when[i] <= t) border[i] += along[i] > 0 ? 1 : -1;
-    at = next;
+      if (when[i] <= next) border[i] += along[i] > 0 ? 1 : -1;
+    t = next;
   }
-  return a == b ? touched(from, from) : true;
+  return true;
 }
 
 /// Whether a robot may go straight from a to b: every voxel that the segment touches is passable.

@@ -54,6 +54,14 @@ inline Eigen::Isometry3d between(const Eigen::Isometry3d& a, const Eigen::Isomet
   return pose;
 }
 
+inline void check_pose_space(std::string_view where, const Box3& bounds, double metres_per_rad) {
+  Check check(where);
+  check(bounds.min().allFinite() && bounds.max().allFinite() && !bounds.isEmpty(), "bounds",
+        concat("(", bounds.min().transpose(), ") to (", bounds.max().transpose(), ")"), "finite, not empty");
+  check.positive("metres_per_rad", metres_per_rad);
+  check.done();
+}
+
 /// Places in a box and turns about the world's z axis: robots that stay upright.
 struct UprightPoses {
   Box3 bounds;                  ///< [m]
@@ -66,15 +74,7 @@ struct UprightPoses {
     pose.rotate(Eigen::AngleAxisd(rng.uniform(-std::numbers::pi, std::numbers::pi), Eigen::Vector3d::UnitZ()));
     return pose;
   }
-  void check() const { check_space("UprightPoses", bounds, metres_per_rad); }
-
-  static void check_space(std::string_view where, const Box3& bounds, double metres_per_rad) {
-    Check check(where);
-    check(bounds.min().allFinite() && bounds.max().allFinite() && !bounds.isEmpty(), "bounds",
-          concat("(", bounds.min().transpose(), ") to (", bounds.max().transpose(), ")"), "finite, not empty");
-    check.positive("metres_per_rad", metres_per_rad);
-    check.done();
-  }
+  void check() const { check_pose_space("UprightPoses", bounds, metres_per_rad); }
 };
 
 /// Places in a box and all rotations: SE(3).
@@ -95,7 +95,7 @@ struct FreePoses {
         Eigen::Quaterniond(c * std::cos(b), s * std::sin(a), s * std::cos(a), c * std::sin(b)).toRotationMatrix();
     return pose;
   }
-  void check() const { UprightPoses::check_space("FreePoses", bounds, metres_per_rad); }
+  void check() const { check_pose_space("FreePoses", bounds, metres_per_rad); }
 };
 
 }  // namespace vantage

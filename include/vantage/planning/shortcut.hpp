@@ -22,9 +22,8 @@
 
 namespace vantage {
 
-/// A polyline without the corners that it does not need: from each point on it goes straight to the farthest later one
-/// that is in line of sight. Never longer than what it was given, and where that was passable, as a chain of voxels is,
-/// the new pieces are, with every voxel they touch.
+/// A polyline without the corners that it does not need: from each point it goes straight to the farthest later one
+/// that is in line of sight, or else to the next as before. Never longer than what it was given.
 template <PassableVoxels P>
 std::vector<Eigen::Vector3d> shortcut(const P& passable, std::span<const Eigen::Vector3d> points) {
   std::vector<Eigen::Vector3d> kept;
