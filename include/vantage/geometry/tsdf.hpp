@@ -63,8 +63,7 @@ class Tsdf {
   explicit Tsdf(const Config& config) : config_(config) {
     Check check("Tsdf::Config");
     const Box3& box = config.bounds;
-    const bool finite = box.min().allFinite() && box.max().allFinite() && (box.sizes().array() > 0).all();
-    check(finite, "bounds", concat("(", box.min().transpose(), ") to (", box.max().transpose(), ")"),
+    check(is_proper(box), "bounds", concat("(", box.min().transpose(), ") to (", box.max().transpose(), ")"),
           "finite, not empty");
     check.positive("voxel_m", config.voxel_m);
     check(std::isfinite(config.truncation_m) && config.truncation_m >= config.voxel_m, "truncation_m",
