@@ -211,7 +211,7 @@ std::vector<std::string> write_plots(const PlanningOptions& o, const std::vector
           for (std::size_t i = 0; i < grid.size(); ++i) {
             const Summary s = at_time(iou ? m.iou : m.rmse_hotspots, i);
             curve.y.push_back(s.mean);
-            curve.low.push_back(s.mean - s.deviation);
+            curve.low.push_back(std::max(0.0, s.mean - s.deviation));  // none of these is ever negative
             curve.high.push_back(s.mean + s.deviation);
           }
           plot.curves.push_back(std::move(curve));

@@ -17,6 +17,7 @@
 #include <vantage/core/large_matrix.hpp>
 #include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
+#include <vantage/core/symmetric_eigen.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/alignment.hpp>
 #include <vantage/geometry/box.hpp>

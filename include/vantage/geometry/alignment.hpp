@@ -32,10 +32,10 @@ struct AlignmentConfig {
 
 /// How a depth image was aligned.
 struct Alignment {
-  View view;              ///< from where it was taken
-  std::size_t pairs = 0;  ///< points that found a partner
-  double overlap = 0;     ///< their share of all points
-  double rms_m = 0;       ///< of their distances along the normal
+  View view;                ///< from where it was taken
+  std::size_t pairs = 0;    ///< points that found a partner
+  double overlap = 0;       ///< their share of all points
+  double rms_m = 0;         ///< of their distances along the normal
   double conditioning = 0;  ///< smallest over largest eigenvalue of the normal equations, turns at the surface's size
   int iterations = 0;
 };
@@ -87,7 +87,8 @@ inline NormalEquations linearise(const DepthSurface& source, const DepthSurface&
         const double weight = std::min(1.0, config.huber_m / std::max(std::abs(residual), 1e-300));
         Eigen::Matrix<double, 6, 1> J;
         J << (p - centre).cross(n) / size_m, n;
-        sum.A.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
+        for (int i = 0; i < 6; ++i)
+          for (int j = 0; j <= i; ++j) sum.A(i, j) += weight * J[i] * J[j];  // only the lower triangle
         sum.b += weight * residual * J;
         sum.squares += residual * residual;
         ++sum.pairs;
@@ -164,7 +165,9 @@ inline std::optional<Alignment> align(const DepthSurface& source, const DepthSur
       const Eigen::Vector3d turn = xi.head<3>() / size_m;
       if (!xi.allFinite()) return std::nullopt;
       const Eigen::AngleAxisd rotation(turn.norm(), turn.norm() > 0 ? turn.normalized() : Eigen::Vector3d::UnitX());
-      T = Eigen::Translation3d(centre + xi.tail<3>()) * rotation * Eigen::Translation3d(-centre) * T;
+      const Eigen::Matrix3d R = rotation.toRotationMatrix();
+      T.translation() = R * (T.translation() - centre) + centre + xi.tail<3>();
+      T.linear() = R * T.linear();
       ++result.iterations;
       at_rest = xi.norm() < config.least_step_m;
     }

@@ -51,8 +51,9 @@ inline bool same_place(const View& a, const View& b) { return distance_m(a, b) <
 /// Throws Error unless the pose is finite and its linear part a rotation (to 1e-6).
 inline void check_view(const View& view, std::string_view where) {
   if (!view.T_W_C.matrix().allFinite()) throw Error(where, "the view's pose is not finite", "finite coefficients");
-  const Eigen::Matrix3d r = view.T_W_C.linear();
-  if (!(r.transpose() * r).isIdentity(1e-6) || r.determinant() < 0)
+  const Eigen::Vector3d x = view.T_W_C.linear().col(0), y = view.T_W_C.linear().col(1), z = view.forward();
+  const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= 1e-6; };
+  if (!unit(x) || !unit(y) || !unit(z) || (x.cross(y) - z).norm() > 1e-6)
     throw Error(where, "the view's pose is no rigid transform", "a rotation with determinant 1");
 }
 
