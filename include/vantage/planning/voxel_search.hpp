@@ -122,13 +122,15 @@ class VoxelSearch {
   void run(const Eigen::Vector3i& from, std::vector<Eigen::Vector3i>& wanted) {
     reach(block_at(block_of(from)), local_of(from), 0, stay);
     for (current_ = to_the_goals(from) >> bucket_bits; waiting_ > 0; ++current_) {
+      // First come, first served: towards the goals the heuristic leaves all of a way in one bucket, where voxels
+      // told last, expanded first, would be told better again and again.
       auto& bucket = bucket_of(current_);
-      while (!bucket.empty()) {
-        const std::uint64_t entry = bucket.back();
-        bucket.pop_back();
-        --waiting_;
+      for (std::size_t k = 0; k < bucket.size(); ++k) {
+        const std::uint64_t entry = bucket[k];
         expand(static_cast<std::uint32_t>(entry / block_voxels), static_cast<std::size_t>(entry % block_voxels));
       }
+      waiting_ -= bucket.size();
+      bucket.clear();
       // Whatever costs no more than this bucket holds is final.
       std::erase_if(wanted, [&](const Eigen::Vector3i& goal) {
         const Cost cost = cost_of(goal);
@@ -173,6 +175,7 @@ class VoxelSearch {
       there.cost[local] = cost;
       there.in[local] = in;
     } else {
+      if ((there.in[local] & in) != 0) return;
       there.in[local] |= in;  // as good as what is known: waits already, or tells its neighbours once more
       if (there.waiting[local]) return;
     }
