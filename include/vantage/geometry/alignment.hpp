@@ -141,7 +141,7 @@ inline std::optional<Alignment> align(const DepthSurface& source, const DepthSur
   check.done();
 
   Alignment result;
-  Eigen::Isometry3d T = model.view().T_W_C.inverse() * source.view().T_W_C;
+  Eigen::Isometry3d T = model.view().T_C_W() * source.view().T_W_C;
   const auto [source_centre, size_m] = detail::centre_and_size(source);
   if (!(size_m > 0)) return std::nullopt;
   bool at_rest = false;
