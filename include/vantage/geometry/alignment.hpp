@@ -87,8 +87,8 @@ inline NormalEquations linearise(const DepthSurface& source, const DepthSurface&
         const double weight = std::min(1.0, config.huber_m / std::max(std::abs(residual), 1e-300));
         Eigen::Matrix<double, 6, 1> J;
         J << (p - centre).cross(n) / size_m, n;
-        for (int i = 0; i < 6; ++i)
-          for (int j = 0; j <= i; ++j) sum.A(i, j) += weight * J[i] * J[j];  // only the lower triangle
+        for (int a = 0; a < 6; ++a)
+          for (int b = 0; b <= a; ++b) sum.A(a, b) += weight * J[a] * J[b];  // only the lower triangle
         sum.b += weight * residual * J;
         sum.squares += residual * residual;
         ++sum.pairs;
