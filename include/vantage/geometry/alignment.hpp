@@ -87,8 +87,8 @@ inline NormalEquations linearise(const DepthSurface& source, const DepthSurface&
         const double weight = std::min(1.0, config.huber_m / std::max(std::abs(residual), 1e-300));
         Eigen::Matrix<double, 6, 1> J;
         J << (p - centre).cross(n) / size_m, n;
-        for (int j = 0; j < 6; ++j)
-          for (int k = 0; k <= j; ++k) sum.A(j, k) += weight * J[j] * J[k];  // only the lower triangle
+        for (int a = 0; a < 6; ++a)
+          for (int b = 0; b <= a; ++b) sum.A(a, b) += weight * J[a] * J[b];  // only the lower triangle
         sum.b += weight * residual * J;
         sum.squares += residual * residual;
         ++sum.pairs;
@@ -141,7 +141,7 @@ inline std::optional<Alignment> align(const DepthSurface& source, const DepthSur
   check.done();
 
   Alignment result;
-  Eigen::Isometry3d T = model.view().T_W_C.inverse() * source.view().T_W_C;
+  Eigen::Isometry3d T = model.view().T_C_W() * source.view().T_W_C;
   const auto [source_centre, size_m] = detail::centre_and_size(source);
   if (!(size_m > 0)) return std::nullopt;
   bool at_rest = false;

@@ -261,7 +261,7 @@ struct Tsdf::Projection {
   Projection(const Config& config, const Frame& f)
       : frame(f),
         truncation(static_cast<float>(config.truncation_m)),
-        T_C_W(f.view.T_W_C.inverse()),
+        T_C_W(f.view.T_C_W()),
         origin(config.bounds.min() + Eigen::Vector3d::Constant(config.voxel_m / 2)),
         voxel_m(config.voxel_m),
         step_z((T_C_W.linear().col(2) * voxel_m).cast<float>()),

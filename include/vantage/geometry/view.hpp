@@ -16,6 +16,17 @@ struct View {
 
   [[nodiscard]] Eigen::Vector3d position() const { return T_W_C.translation(); }
   [[nodiscard]] Eigen::Vector3d forward() const { return T_W_C.linear().col(2); }
+  /// World points to camera points; for a rigid pose. Coefficient by coefficient, since Transform::inverse makes every
+  /// includer compile Eigen's general inverses.
+  [[nodiscard]] Eigen::Isometry3d T_C_W() const {
+    Eigen::Isometry3d inverse = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        inverse(i, j) = T_W_C(j, i);
+        inverse(i, 3) -= T_W_C(j, i) * T_W_C(j, 3);
+      }
+    return inverse;
+  }
 };
 
 using Views = std::span<const View>;
