@@ -9,7 +9,7 @@ script=${script#"$root"/}
 
 packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libembree-dev libqhull-dev libnanoflann-dev
           libpng-dev zlib1g-dev libstb-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
-          libgtest-dev libbenchmark-dev libopenblas-dev"
+          libgtest-dev libbenchmark-dev libopenblas-dev liboctomap-dev"
 
 # Ends the script with one clear line.
 fail() { # exit code, line

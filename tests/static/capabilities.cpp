@@ -9,6 +9,7 @@
 #include <vantage/loop/carry.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
+#include <vantage/maps/voxel/voxel_map.hpp>
 
 // The capability table: what each map offers, and what it does not. A map that gains or loses a capability by accident
 // does not compile here.
@@ -62,6 +63,13 @@ static_assert(field_map<IntegralGp<SquaredExponential, CellCentre, Full<>, Fixed
 static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Merging<>>>);
 static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Fixed<>>>);
 static_assert(Posed<IntegralGp<>::Measurement> && Posed<archetype::Map::Measurement>);
+
+// Voxel maps, whatever their policies.
+template <class M>
+constexpr bool voxel_map = offers_just<M, Occupancy, Voxels, Navigable, Frontier, Coverage>&& Persistent<M>;
+static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>);
+static_assert(voxel_map<VoxelMap<RayCast, ClassCounts<5>>>);
+static_assert(ForetellsRefusal<VoxelMap<>> && Posed<VoxelMap<>::Measurement>);
 
 // What is no map: each lacks one thing.
 struct WithoutMeasurement {

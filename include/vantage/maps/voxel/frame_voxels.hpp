@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -87,6 +88,18 @@ class FrameVoxels {
     const std::uint64_t bit = std::uint64_t{1} << (n & 63);
     if (word.load(std::memory_order_relaxed) & bit) return false;  // most are set already, and a read costs little
     return !(word.fetch_or(bit, std::memory_order_relaxed) & bit);
+  }
+
+  /// f(number) for some of `numbers` that are no `nowhere`, each at least once. Noise makes neighbours jump between two
+  /// voxels: those two are not repeated.
+  template <class F>
+  static void for_new(std::span<const std::int32_t> numbers, F&& f) {
+    std::int32_t last = nowhere, before = nowhere;
+    for (const std::int32_t n : numbers) {
+      if ((n == last) | (n == before) | (n == nowhere)) continue;
+      before = std::exchange(last, n);
+      f(n);
+    }
   }
 
   /// f(first pixel, numbers of the voxels) for pieces of rows, concurrently: the voxel that a pixel's point lies in, or

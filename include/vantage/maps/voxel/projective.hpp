@@ -76,11 +76,9 @@ struct Projective {
 inline void Projective::mark(const VoxelGrid& grid, const Frame& frame, const DepthRange& range,
                              FrameVoxels& voxels) const {
   voxels.for_pixels<false>(grid, frame, range, [&](Eigen::Index, std::span<const std::int32_t> numbers) {
-    std::int32_t last = FrameVoxels::nowhere;
-    for (const std::int32_t n : numbers) {
-      if (n != last && n >= 0) FrameVoxels::mark(voxels.hits, n);
-      last = n;
-    }
+    FrameVoxels::for_new(numbers, [&](std::int32_t n) {
+      if (n >= 0) FrameVoxels::mark(voxels.hits, n);
+    });
   });
 
   const Camera& camera = frame.camera;

@@ -118,16 +118,12 @@ class VoxelWalk {
 inline void RayCast::mark(const VoxelGrid& grid, const Frame& frame, const DepthRange& range,
                           FrameVoxels& voxels) const {
   voxels.for_pixels<true>(grid, frame, range, [&](Eigen::Index, std::span<const std::int32_t> numbers) {
-    std::int32_t last = FrameVoxels::nowhere;
-    for (const std::int32_t n : numbers) {
-      if (n != last && n != FrameVoxels::nowhere) {
-        if (n >= 0)
-          FrameVoxels::mark(voxels.hits, n);
-        else
-          FrameVoxels::mark(voxels.ends, -2 - n);
-      }
-      last = n;
-    }
+    FrameVoxels::for_new(numbers, [&](std::int32_t n) {
+      if (n >= 0)
+        FrameVoxels::mark(voxels.hits, n);
+      else
+        FrameVoxels::mark(voxels.ends, -2 - n);
+    });
   });
 
   const Eigen::Vector3d eye =
