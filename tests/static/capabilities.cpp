@@ -73,6 +73,7 @@ constexpr bool voxel_map =
 static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, ClassCounts<5>, NoOccupiedCentreInBall>>);
 static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
               !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
+static_assert(ForetellsRefusal<VoxelMap<>> && Posed<VoxelMap<>::Measurement>);
 
 // What is no map: each lacks one thing.
 struct WithoutMeasurement {

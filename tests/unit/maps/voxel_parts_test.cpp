@@ -100,7 +100,7 @@ TEST(VoxelParts, AWalkCrossesTheVoxelsOfItsSegment) {
       to[a] = 0.5 + static_cast<double>(rng.index(static_cast<std::uint64_t>(size[a])));
     }
     std::vector<Eigen::Vector3i> cells;
-    VoxelWalk(from, to, size)([&](const std::array<int, 3>& c) { cells.emplace_back(c[0], c[1], c[2]); });
+    VoxelWalk(from, to, size)([&](int x, int y, int z) { cells.emplace_back(x, y, z); });
     cells.push_back(to.cast<int>());
     for (std::size_t i = 0; i < cells.size(); ++i) {
       ASSERT_TRUE((cells[i].array() >= 0).all() && (cells[i].array() < size.array()).all());
@@ -116,7 +116,7 @@ TEST(VoxelParts, AWalkCrossesTheVoxelsOfItsSegment) {
 
 TEST(VoxelParts, AWalkAlongAnAxisAndToItself) {
   int steps = 0;
-  const auto count = [&](const std::array<int, 3>&) { ++steps; };
+  const auto count = [&](int, int, int) { ++steps; };
   VoxelWalk({0.5, 2.5, 2.5}, {4.5, 2.5, 2.5}, {5, 5, 5})(count);
   EXPECT_EQ(steps, 4);
   VoxelWalk({2.5, 2.5, 2.5}, {2.5, 2.5, 2.5}, {5, 5, 5})(count);

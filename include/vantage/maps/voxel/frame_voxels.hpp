@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -89,6 +90,18 @@ class FrameVoxels {
     return !(word.fetch_or(bit, std::memory_order_relaxed) & bit);
   }
 
+  /// f(number) for some of `numbers` that are no `nowhere`, each at least once. Noise makes neighbours jump between two
+  /// voxels: those two are not repeated.
+  template <class F>
+  static void for_new(std::span<const std::int32_t> numbers, F&& f) {
+    std::int32_t last = nowhere, before = nowhere;
+    for (const std::int32_t n : numbers) {
+      if ((n == last) | (n == before) | (n == nowhere)) continue;
+      before = std::exchange(last, n);
+      f(n);
+    }
+  }
+
   /// f(first pixel, numbers of the voxels) for pieces of rows, concurrently: the voxel that a pixel's point lies in, or
   /// `nowhere`; -2 - number if the ray ends there without a hit: it goes on beyond the range or (`clip`) the grid, and
   /// this is the last voxel.
@@ -99,6 +112,7 @@ class FrameVoxels {
 
  private:
   static constexpr Eigen::Index piece = 64;
+  struct Line;
   Region region_;
   std::array<std::vector<std::int32_t>, 3> offset_;
 };
@@ -140,6 +154,47 @@ inline FrameVoxels::Region FrameVoxels::around(const VoxelGrid& grid, const Fram
   return region;
 }
 
+/// Pixels of a row, in plain floats so that the loop over them becomes vectors.
+struct FrameVoxels::Line {
+  float eye_x, eye_y, eye_z, right_x, right_y, right_z;  ///< the camera, and from a pixel's ray to the next
+  float high_x, high_y, high_z, max, none;
+  std::int32_t stride_y, stride_z;
+
+  template <bool clip>
+  void numbers(const Eigen::Vector3f& left, const float* depth, std::size_t n, std::int32_t* out) const {
+    constexpr float inside = 0.01F;  // a ray that leaves the grid ends this part of a voxel before it does
+    const Line l = *this;
+    const float left_x = left.x(), left_y = left.y(), left_z = left.z();
+    const auto count = static_cast<std::int32_t>(n);
+    for (std::int32_t i = 0; i < count; ++i) {
+      const float k = static_cast<float>(i), d = depth[i];
+      const float dx = left_x + k * l.right_x, dy = left_y + k * l.right_y, dz = left_z + k * l.right_z;
+      const float valued = d == d ? d : l.none, far = d > l.max ? l.max : valued;
+      const float end_x = l.eye_x + far * dx, end_y = l.eye_y + far * dy, end_z = l.eye_z + far * dz;
+      const bool ends_in =
+          (end_x >= 0) & (end_x < l.high_x) & (end_y >= 0) & (end_y < l.high_y) & (end_z >= 0) & (end_z < l.high_z);
+      float z = far;
+      if constexpr (clip) {
+        const float tx = ((dx > 0 ? l.high_x - inside : inside) - l.eye_x) / dx,
+                    ty = ((dy > 0 ? l.high_y - inside : inside) - l.eye_y) / dy,
+                    tz = ((dz > 0 ? l.high_z - inside : inside) - l.eye_z) / dz;
+        const float ux = dx == 0 ? far : tx, uy = dy == 0 ? far : ty, uz = dz == 0 ? far : tz;
+        const float u = ux < uy ? ux : uy, t = u < uz ? u : uz;
+        z = ends_in | !(t < far) ? far : t;
+      }
+      const float x = l.eye_x + z * dx, y = l.eye_y + z * dy, w = l.eye_z + z * dz;
+      const bool in = (x >= 0) & (x < l.high_x) & (y >= 0) & (y < l.high_y) & (w >= 0) & (w < l.high_z) & (z > 0);
+      const bool is_hit = (d <= l.max) & ends_in;
+      const auto ix = static_cast<std::int32_t>(in ? x : 0), iy = static_cast<std::int32_t>(in ? y : 0),
+                 iz = static_cast<std::int32_t>(in ? w : 0);
+      const std::int32_t at = (ix >> 3) * 512 + (iy >> 3) * l.stride_y + (iz >> 3) * l.stride_z +
+                              ((ix & 7) | (iy & 7) << 3 | (iz & 7) << 6);
+      const std::int32_t ended = is_hit ? at : -2 - at;
+      out[i] = in ? ended : nowhere;
+    }
+  }
+};
+
 template <bool clip, class F>
 void FrameVoxels::for_pixels(const VoxelGrid& grid, const Frame& frame, const DepthRange& range, F&& f) const {
   if (count() == 0) return;
@@ -150,11 +205,21 @@ void FrameVoxels::for_pixels(const VoxelGrid& grid, const Frame& frame, const De
   const Eigen::Vector3d from = grid.origin() + edge.cwiseProduct(first_voxel().cast<double>());
   const Eigen::Vector3f eye = (frame.view.position() - from).cwiseQuotient(edge).cast<float>();
   const Eigen::Vector3f right = (axes.col(0) / camera.fx).cast<float>();
-  const Eigen::Vector3f low = Eigen::Vector3f::Zero(),
-                        high = (grid.size() - first_voxel()).cwiseMin(voxels()).cast<float>();
-  const auto max = static_cast<float>(range.max_m), none = static_cast<float>(range.no_return_m);
-  const std::int32_t stride_y = region_.size.x() * 512, stride_z = region_.size.y() * stride_y;
-  constexpr float inside = 0.01F;  // a ray that leaves the grid ends this part of a voxel before it does
+  const Eigen::Vector3f high = (grid.size() - first_voxel()).cwiseMin(voxels()).cast<float>();
+  const std::int32_t stride_y = region_.size.x() * 512;
+  const Line line{eye.x(),
+                  eye.y(),
+                  eye.z(),
+                  right.x(),
+                  right.y(),
+                  right.z(),
+                  high.x(),
+                  high.y(),
+                  high.z(),
+                  static_cast<float>(range.max_m),
+                  static_cast<float>(range.no_return_m),
+                  stride_y,
+                  region_.size.y() * stride_y};
   parallel_for_blocks(static_cast<std::size_t>(camera.height), 16, [&](std::size_t begin, std::size_t end) {
     std::array<std::int32_t, piece> number;
     for (std::size_t row = begin; row < end; ++row) {
@@ -163,35 +228,8 @@ void FrameVoxels::for_pixels(const VoxelGrid& grid, const Frame& frame, const De
       for (Eigen::Index u0 = 0; u0 < camera.width; u0 += piece) {
         const Eigen::Index first = static_cast<Eigen::Index>(row) * camera.width + u0;
         const auto n = static_cast<std::size_t>(std::min(piece, camera.width - u0));
-        const float* depth = frame.depth.data() + first;
-        const Eigen::Vector3f start = left + static_cast<float>(u0) * right;
-        for (std::size_t i = 0; i < n; ++i) {
-          const float k = static_cast<float>(static_cast<std::int32_t>(i)), d = depth[i];
-          const float dx = start[0] + k * right[0], dy = start[1] + k * right[1], dz = start[2] + k * right[2];
-          float z = d > max ? max : d == d ? d : none;
-          bool is_hit = d <= max;
-          float x = eye[0] + z * dx, y = eye[1] + z * dy, w = eye[2] + z * dz;
-          bool in = (x >= low[0]) & (x < high[0]) & (y >= low[1]) & (y < high[1]) & (w >= low[2]) & (w < high[2]);
-          if constexpr (clip) {
-            const auto leaves = [&](int a, float direction) {
-              const float t = ((direction > 0 ? high[a] - inside : low[a] + inside) - eye[a]) / direction;
-              return direction == 0 ? z : t;
-            };
-            const float tx = leaves(0, dx), ty = leaves(1, dy), tz = leaves(2, dz);
-            const float txy = tx < ty ? tx : ty, t = txy < tz ? txy : tz;
-            const bool out = !in & (t < z);
-            is_hit = is_hit & !out;
-            z = out ? t : z;
-            x = eye[0] + z * dx, y = eye[1] + z * dy, w = eye[2] + z * dz;
-            in = (x >= low[0]) & (x < high[0]) & (y >= low[1]) & (y < high[1]) & (w >= low[2]) & (w < high[2]);
-          }
-          in = in & (z > 0);
-          const auto ix = static_cast<std::int32_t>(in ? x : 0), iy = static_cast<std::int32_t>(in ? y : 0),
-                     iz = static_cast<std::int32_t>(in ? w : 0);
-          const std::int32_t local = (ix & 7) | (iy & 7) << 3 | (iz & 7) << 6;
-          const std::int32_t at = (ix >> 3) * 512 + (iy >> 3) * stride_y + (iz >> 3) * stride_z + local;
-          number[i] = !in ? nowhere : is_hit ? at : -2 - at;
-        }
+        line.template numbers<clip>((left + static_cast<float>(u0) * right).eval(), frame.depth.data() + first, n,
+                                    number.data());
         f(first, std::span<const std::int32_t>(number.data(), n));
       }
     }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -89,46 +90,58 @@ struct Projective {
 inline void Projective::mark(const VoxelGrid& grid, const Frame& frame, const DepthRange& range,
                              FrameVoxels& voxels) const {
   voxels.for_pixels<false>(grid, frame, range, [&](Eigen::Index, std::span<const std::int32_t> numbers) {
-    std::int32_t last = FrameVoxels::nowhere;
-    for (const std::int32_t n : numbers) {
-      if (n != last && n >= 0) FrameVoxels::mark(voxels.hits, n);
-      last = n;
-    }
+    FrameVoxels::for_new(numbers, [&](std::int32_t n) {
+      if (n >= 0) FrameVoxels::mark(voxels.hits, n);
+    });
   });
 
   const Camera& camera = frame.camera;
   const Eigen::Isometry3d T_C_W = frame.view.T_W_C.inverse();
   const Eigen::Matrix3f step = (T_C_W.linear() * grid.voxel_m().asDiagonal()).cast<float>();
-  const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy), cx = static_cast<float>(camera.cx),
-             cy = static_cast<float>(camera.cy), width = static_cast<float>(camera.width),
-             height = static_cast<float>(camera.height), max = static_cast<float>(range.max_m),
-             none = static_cast<float>(range.no_return_m);
+  const auto max = static_cast<float>(range.max_m), none = static_cast<float>(range.no_return_m);
   const float* depth = frame.depth.data();
+  // Where the 64 voxels of a slice lie, from the first of them.
+  alignas(64) std::array<float, 64> off_x, off_y, off_z;
+  for (std::size_t i = 0; i < 64; ++i) {
+    const Eigen::Vector3f off = step * Eigen::Vector3f(static_cast<float>(i & 7), static_cast<float>(i >> 3), 0);
+    off_x[i] = off.x(), off_y[i] = off.y(), off_z[i] = off.z();
+  }
   parallel_for_blocks(voxels.count(), 8, [&](std::size_t begin, std::size_t end) {
+    // Two loops over a slice, each simple enough to become vectors.
+    const auto fx = static_cast<float>(camera.fx), fy = static_cast<float>(camera.fy),
+               cx = static_cast<float>(camera.cx), cy = static_cast<float>(camera.cy),
+               width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+    const std::int32_t columns = camera.width;
+    alignas(64) std::array<float, 64> z;
+    alignas(64) std::array<std::int32_t, 64> pixel;
     for (std::size_t b = begin; b < end; ++b) {
       const Eigen::Vector3i block = voxels.block(b);
       const Eigen::Vector3f first = (T_C_W * grid.centre(block_edge * block)).cast<float>();
       VoxelBits pass;
-      for (std::size_t k = 0; k < 8; ++k)
-        for (std::size_t quarter = 0; quarter < 4; ++quarter) {
-          const Eigen::Vector3f at =
-              first + static_cast<float>(k) * step.col(2) + static_cast<float>(2 * quarter) * step.col(1);
-          std::uint32_t word = 0;
-          for (std::uint32_t i = 0; i < 16; ++i) {
-            const auto dx = static_cast<float>(static_cast<std::int32_t>(i & 7)),
-                       dy = static_cast<float>(static_cast<std::int32_t>(i >> 3));
-            const float x = at[0] + dx * step(0, 0) + dy * step(0, 1), y = at[1] + dx * step(1, 0) + dy * step(1, 1),
-                        z = at[2] + dx * step(2, 0) + dy * step(2, 1), inverse = 1 / z;
-            const float u = fx * x * inverse + cx, v = fy * y * inverse + cy;
-            const bool in_view = (z > 0) & (u >= 0) & (u < width) & (v >= 0) & (v < height);
-            const auto column = static_cast<std::int32_t>(in_view ? u : 0),
-                       row = static_cast<std::int32_t>(in_view ? v : 0);
-            const float d = depth[row * camera.width + column];
-            const float seen = d > max ? max : d == d ? d : none;
-            word |= static_cast<std::uint32_t>(in_view & (z < seen)) << i;
-          }
-          pass.slice[k] |= std::uint64_t{word} << 16 * quarter;
+      for (std::size_t k = 0; k < 8; ++k) {
+        const Eigen::Vector3f at = first + static_cast<float>(k) * step.col(2);
+        const float at_x = at.x(), at_y = at.y(), at_z = at.z();
+        std::int32_t seen = 0;
+        for (std::size_t i = 0; i < 64; ++i) {
+          const float px = at_x + off_x[i], py = at_y + off_y[i], pz = at_z + off_z[i], inverse = 1 / pz;
+          const float u = fx * px * inverse + cx, v = fy * py * inverse + cy;
+          const bool in_view = (pz > 0) & (u >= 0) & (u < width) & (v >= 0) & (v < height);
+          z[i] = pz;
+          const auto column = static_cast<std::int32_t>(in_view ? u : 0),
+                     row = static_cast<std::int32_t>(in_view ? v : 0);
+          pixel[i] = in_view ? row * columns + column : -1;
+          seen |= in_view;
         }
+        if (!seen) continue;
+        std::uint64_t word = 0;
+        for (std::size_t i = 0; i < 64; ++i) {
+          const std::int32_t p = pixel[i];
+          const float d = depth[p < 0 ? 0 : p];
+          const float valued = d == d ? d : none, far = d > max ? max : valued;
+          word |= static_cast<std::uint64_t>((p >= 0) & (z[i] < far)) << i;
+        }
+        pass.slice[k] = word;
+      }
       voxels.passes[b] = pass & VoxelBits::inside(grid, block) & ~voxels.hits[b];
     }
   });

@@ -82,45 +82,58 @@ class VoxelWalk {
       if (from[a] < 0) enter = std::max(enter, -from[a] / along[a]);
       if (from[a] >= n) enter = std::max(enter, (n - from[a]) / along[a]);
     }
+    steps_ = 0;
     for (int a = 0; a < 3; ++a) {
       const auto i = static_cast<std::size_t>(a);
-      cell[i] = std::clamp(static_cast<int>(std::floor(from[a] + enter * along[a])), 0, size[a] - 1);
-      const int end = static_cast<int>(to[a]);
-      left[i] = std::abs(end - cell[i]);
-      step[i] = end > cell[i] ? 1 : -1;
-      delta[i] = 1 / std::abs(along[a]);
-      next[i] = left[i] == 0 ? never : ((step[i] > 0 ? cell[i] + 1 : cell[i]) - from[a]) / along[a];
+      cell_[i] = std::clamp(static_cast<int>(std::floor(from[a] + enter * along[a])), 0, size[a] - 1);
+      end_[i] = static_cast<int>(to[a]);
+      step_[i] = end_[i] > cell_[i] ? 1 : -1;
+      delta_[i] = 1 / std::abs(along[a]);
+      next_[i] = end_[i] == cell_[i] ? never : ((step_[i] > 0 ? cell_[i] + 1 : cell_[i]) - from[a]) / along[a];
+      steps_ += std::abs(end_[i] - cell_[i]);
     }
   }
+  /// visit(x, y, z)
   template <class F>
-  void operator()(F&& visit) {
-    for (int n = left[0] + left[1] + left[2]; n > 0; --n) {
-      visit(cell);
-      const std::size_t a = next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-      cell[a] += step[a];
-      next[a] = --left[a] == 0 ? never : next[a] + delta[a];
+  void operator()(F&& visit) const {
+    // Which axis is next cannot be foretold, so there is no branch on it. Each is done when it is at its end: a walk
+    // has as many steps as that takes, whatever rounding does.
+    auto [x, y, z] = cell_;
+    auto [next_x, next_y, next_z] = next_;
+    const auto [end_x, end_y, end_z] = end_;
+    const auto [step_x, step_y, step_z] = step_;
+    const auto [delta_x, delta_y, delta_z] = delta_;
+    for (int n = steps_; n > 0; --n) {
+      visit(x, y, z);
+      const bool is_x = (next_x < next_y) & (next_x < next_z), is_y = !is_x & (next_y < next_z), is_z = !is_x & !is_y;
+      x += is_x ? step_x : 0;
+      y += is_y ? step_y : 0;
+      z += is_z ? step_z : 0;
+      next_x += is_x ? delta_x : 0;
+      next_y += is_y ? delta_y : 0;
+      next_z += is_z ? delta_z : 0;
+      next_x = x == end_x ? never : next_x;
+      next_y = y == end_y ? never : next_y;
+      next_z = z == end_z ? never : next_z;
     }
   }
 
  private:
   static constexpr double never = std::numeric_limits<double>::infinity();
-  std::array<int, 3> cell, left, step;
-  std::array<double, 3> next, delta;
+  std::array<int, 3> cell_, end_, step_;
+  std::array<double, 3> next_, delta_;
+  int steps_;
 };
 
 inline void RayCast::mark(const VoxelGrid& grid, const Frame& frame, const DepthRange& range,
                           FrameVoxels& voxels) const {
   voxels.for_pixels<true>(grid, frame, range, [&](Eigen::Index, std::span<const std::int32_t> numbers) {
-    std::int32_t last = FrameVoxels::nowhere;
-    for (const std::int32_t n : numbers) {
-      if (n != last && n != FrameVoxels::nowhere) {
-        if (n >= 0)
-          FrameVoxels::mark(voxels.hits, n);
-        else
-          FrameVoxels::mark(voxels.ends, -2 - n);
-      }
-      last = n;
-    }
+    FrameVoxels::for_new(numbers, [&](std::int32_t n) {
+      if (n >= 0)
+        FrameVoxels::mark(voxels.hits, n);
+      else
+        FrameVoxels::mark(voxels.ends, -2 - n);
+    });
   });
 
   const Eigen::Vector3d eye =
@@ -133,9 +146,8 @@ inline void RayCast::mark(const VoxelGrid& grid, const Frame& frame, const Depth
       (voxels.hits[b] | voxels.ends[b]).for_each([&](std::size_t local) {
         const Eigen::Vector3d to =
             (first + voxel_of(Eigen::Vector3i::Zero(), local)).cast<double>() + Eigen::Vector3d::Constant(0.5);
-        VoxelWalk(eye, to, size)([&](const std::array<int, 3>& c) {
-          FrameVoxels::mark(voxels.passes, along_x[c[0]] + along_y[c[1]] + along_z[c[2]]);
-        });
+        VoxelWalk(eye, to, size)(
+            [&](int x, int y, int z) { FrameVoxels::mark(voxels.passes, along_x[x] + along_y[y] + along_z[z]); });
       });
     }
   });
