@@ -37,6 +37,7 @@ class GridRay {
     for (std::size_t a = 0; a < 3; ++a) {
       const auto axis = static_cast<Eigen::Index>(a);
       origin_[a] = origin[axis];
+      slope_[a] = slope[axis];
       size_[a] = grid.size()[axis];
       step_[a] = slope[axis] > parallel ? 1 : slope[axis] < -parallel ? -1 : 0;
       inverse_[a] = step_[a] == 0 ? 0 : 1 / slope[axis];
@@ -86,12 +87,20 @@ class GridRay {
     const std::size_t out = first_of(leave);
     for (std::size_t a = 0; a < 3; ++a) {
       if (a == out || step_[a] == 0) continue;
-      // All borders that the ray crosses before, and those at the same t whose turn comes earlier.
-      while (next_[a] < leave[out] || (next_[a] == leave[out] && a < out)) {
-        voxel_[a] += step_[a];
-        going_ = going_ && inside(a, voxel_[a]);
-        next_[a] = at(a, border(a, voxel_[a]));
-      }
+      // Past all borders that the ray crosses before, and those at the same t whose turn comes earlier: a guess, and
+      // what is wrong with it.
+      const auto crossed = [&](int v) {
+        const double t = at(a, border(a, v));
+        return t < leave[out] || (t == leave[out] && a < out);
+      };
+      const int last = last_of_block(a), start = voxel_[a];
+      const double guess = std::floor(origin_[a] + slope_[a] * leave[out]);
+      int v = static_cast<int>(std::clamp<double>(guess, std::min(start, last), std::max(start, last)));
+      while (v != last && crossed(v)) v += step_[a];
+      while (v != start && !crossed(v - step_[a])) v -= step_[a];
+      voxel_[a] = v;
+      going_ = going_ && inside(a, v);
+      next_[a] = at(a, border(a, v));
     }
     voxel_[out] = last_of_block(out);
     next_[out] = leave[out];
@@ -119,7 +128,7 @@ class GridRay {
     next_[axis] = at(axis, border(axis, voxel_[axis]));
   }
 
-  std::array<double, 3> origin_{}, inverse_{}, next_{};
+  std::array<double, 3> origin_{}, slope_{}, inverse_{}, next_{};
   std::array<int, 3> voxel_{}, step_{}, size_{};
   double enter_ = 0, most_;
   bool going_ = false;
