@@ -12,10 +12,10 @@
 #include <vantage/mission/recorder.hpp>
 #include <vantage/sim/rgbd_world.hpp>
 
+#include "explore_results.hpp"
 #include "explorer.hpp"
 #include "missions.hpp"
 #include "referee.hpp"
-#include "explore_results.hpp"
 
 namespace scene {
 

@@ -107,8 +107,8 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
           {"Planning", short_number(tenths(1000 * planning_s / static_cast<double>(std::max<std::size_t>(plans, 1)))),
            "ms", "a view, on average"},
           {"Collisions", short_number(static_cast<double>(referee.collisions())), "",
-           concat("a ball of ", short_number(100 * o.body_radius_m), " cm; nearest surface ",
-                  short_number(std::round(100 * least_clearance_m(record))), " cm from its centre")},
+           concat("a ball of ", short_number(100 * o.body_radius_m), " cm; the nearest surface was ",
+                  short_number(std::round(100 * least_clearance_m(record))), " cm from it")},
           {"Map", short_number(tenths(last.metric("megabytes"))), "MB",
            concat("voxels of ", short_number(100 * o.map_voxel_m), " cm")}};
 }

@@ -50,14 +50,14 @@ struct Explorer {
   void with(const std::string& method, F&& fly) const {
     const Shortcut<> route(AStar({.own_ball_m = clearance_m}));
     const TravelTradeoff tradeoff(route, {.speed_m_s = speed_m_s});
-    const Frontier frontier({.cone = {.farthest_m = 0.5 * range_m}});
+    const Frontier frontier({.cone = {.farthest_m = 0.5 * range_m, .min_cosine = 0.25}, .smallest_m2 = 0.02});
     if (method == "fbe")
       fly(NbvLoop{map<Update>(), Unexplored({.camera = sensor, .far_m = range_m}), frontier, tradeoff});
     else if (method == "information_gain")
       fly(NbvLoop{map<Update>(), InformationGain(sensor), frontier, tradeoff});
     else if (method == "nbvp")
-      fly(NbvLoop{map<Update>(), Unexplored({.camera = sensor, .far_m = range_m}), ViewTree({.own_ball_m = clearance_m}),
-                  FirstOfBranch({.speed_m_s = speed_m_s})});
+      fly(NbvLoop{map<Update>(), Unexplored({.camera = sensor, .far_m = range_m}),
+                  ViewTree({.own_ball_m = clearance_m}), FirstOfBranch({.speed_m_s = speed_m_s})});
     else
       fly(NbvLoop{map<Update>(), Uninformed{}, Local({.radius_m = 2}),
                   MinusCost(route, {.weight_per_m = 0, .speed_m_s = speed_m_s})});

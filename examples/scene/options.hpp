@@ -43,10 +43,10 @@ struct Options : MissionOptions {
   double field_of_view_deg = 60;
   double range_m = 5;
   double depth_noise = 0.01;
-  double body_radius_m = 0.3;
+  double body_radius_m = 0.2;
   double voxel_m = 0.02;
   double threshold_m = 0.02;
-  double map_voxel_m = 0.1;
+  double map_voxel_m = 0.05;
   double speed_m_s = 1;
 
   Options() {

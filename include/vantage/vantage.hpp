@@ -82,8 +82,8 @@
 #include <vantage/maps/voxel/voxel_blocks.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
 #include <vantage/planning/a_star.hpp>
+#include <vantage/planning/heading.hpp>
 #include <vantage/planning/lattice_moves.hpp>
-#include <vantage/planning/level_view.hpp>
 #include <vantage/planning/line_of_sight.hpp>
 #include <vantage/planning/passable.hpp>
 #include <vantage/planning/poses.hpp>
@@ -109,7 +109,6 @@
 #include <vantage/sampler/utility_weighted.hpp>
 #include <vantage/sampler/view_cone.hpp>
 #include <vantage/sampler/view_tree.hpp>
-#include <vantage/sampler/yaw_only.hpp>
 #include <vantage/selector/arg_max.hpp>
 #include <vantage/selector/first_best.hpp>
 #include <vantage/selector/first_of_branch.hpp>

@@ -264,6 +264,12 @@ class CollisionChecker {
   [[nodiscard]] CollisionCheck check(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const;
   [[nodiscard]] CollisionCheck check(const View& from, const View& to) const { return check(from.T_W_C, to.T_W_C); }
 
+  // CollisionFree: for RrtStar.
+  [[nodiscard]] bool is_free(const Eigen::Isometry3d& T_W_R) const { return check(T_W_R).free(); }
+  [[nodiscard]] bool is_free(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) const {
+    return check(from, to).free();
+  }
+
   /// All motions of a path, one after the other, concurrently. A path of one pose is this pose; of none, free with an
   /// infinite clearance.
   [[nodiscard]] PathCheck check(Views path) const;

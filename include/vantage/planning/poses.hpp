@@ -16,8 +16,8 @@
 // Poses of a robot's body, T_W_B: body points to world points. Spaces of poses from which a sampling planner draws.
 namespace vantage {
 
-/// Whether a robot's body is clear of everything at a pose, and all the way between two, as `between` goes. Whatever a
-/// library could not decide is not free. May be called concurrently by others, not by RrtStar.
+/// Whether a robot's body is clear of everything at a pose, and all the way between two, as a RigidMotion goes.
+/// Whatever a library could not decide is not free. May be called concurrently by others, not by RrtStar.
 template <class C>
 concept CollisionFree = requires(const C c, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   { c.is_free(from) } -> std::convertible_to<bool>;
@@ -45,15 +45,6 @@ inline double turn_rad(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 inline double pose_distance_m(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double metres_per_rad) {
   return std::hypot((b.translation() - a.translation()).norm(), metres_per_rad * turn_rad(a, b));
 }
-/// Straight from a (t = 0) to b (t = 1), turning evenly about one axis, the shorter way round.
-inline Eigen::Isometry3d between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double t) {
-  const Eigen::Quaterniond from(a.linear()), to(b.linear());
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = from.slerp(t, to).normalized().toRotationMatrix();
-  pose.translation() = a.translation() + t * (b.translation() - a.translation());
-  return pose;
-}
-
 inline void check_pose_space(std::string_view where, const Box3& bounds, double metres_per_rad) {
   Check check(where);
   check(bounds.min().allFinite() && bounds.max().allFinite() && !bounds.isEmpty(), "bounds",

@@ -17,6 +17,7 @@
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/view.hpp>
 #include <vantage/planning/poses.hpp>
+#include <vantage/planning/rigid_motion.hpp>
 
 namespace vantage {
 
@@ -32,7 +33,7 @@ struct PosePath {
 /// radius shrinks as gamma (log n / n)^(1/d), with the gamma of their theorem 38, so that the cost tends to the least
 /// one. Poses that cannot be on a shorter way than the best one found are left out. Deterministic for a given `rng`.
 ///
-/// Cost: `samples` draws, each one search through the nodes (two numbers a node, 1 to 2 ns) and a few calls of the
+/// Cost: `samples` draws, each one search through all nodes and a few calls of the
 /// collision check, which as a rule is most of the time. const members run concurrently.
 template <PoseSpace Space = UprightPoses>
 class RrtStar {
@@ -72,7 +73,7 @@ class RrtStar {
       const double away_m = tree.distance_m(nearest, drawn);
       if (away_m < 1e-9) continue;
       const Eigen::Isometry3d pose =
-          away_m <= config_.step_m ? drawn : between(tree.poses[nearest], drawn, config_.step_m / away_m);
+          away_m <= config_.step_m ? drawn : RigidMotion(tree.poses[nearest], drawn).at(config_.step_m / away_m);
       if (tree.distance_m(0, pose) + tree.distance(pose, goal) >= best.cost_m(tree)) continue;
       if (!body.is_free(pose)) continue;
       if (const auto node = insert(tree, pose, nearest, body)) connect(tree, *node, goal, body, best);

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include <vantage/geometry/view.hpp>
-#include <vantage/planning/level_view.hpp>
+#include <vantage/planning/heading.hpp>
 
 namespace vantage {
 

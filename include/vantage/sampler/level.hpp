@@ -12,11 +12,12 @@
 #include <vantage/concepts/explain.hpp>
 #include <vantage/concepts/map.hpp>
 #include <vantage/concepts/policy.hpp>
+#include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/view.hpp>
-#include <vantage/planning/level_view.hpp>
+#include <vantage/planning/heading.hpp>
 
 namespace vantage {
 
@@ -52,6 +53,9 @@ class Level {
     c.views = all_level(c.views);
     return c;
   }
+  void save(Sink& sink) const requires Persistent<Base> { base_.save(sink); }
+  void load(Source& source) requires Persistent<Base> { base_.load(source); }
+
   /// The view that such a robot takes instead.
   [[nodiscard]] View level(const View& view) const {
     const Eigen::Vector3d forward = view.forward(), eye = view.position();

@@ -11,6 +11,7 @@
 #include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/planning/collision.hpp>
+#include <vantage/planning/rrt_star.hpp>
 
 #include "message_of.hpp"
 #include "random_pose.hpp"
@@ -193,215 +194,22 @@ TEST(Collision, WhatASolidHoldsItMeets) {
 
 TEST(Collision, AMotionThroughAWallIsFoundHoweverThinTheRobot) {
   TriangleMesh wall;
-  add_triangle(wall, {1, -5, -5}, {1, 5, -5}, {1, 0, 5});
-  const CollisionScene scene(wall);
-  std::vector<RobotShape> shapes = shapes_of_half_a_metre();
-  shapes.emplace_back(shape::Sphere{0});
-  shapes.emplace_back(shape::Box{Eigen::Vector3d::Zero()});
-  for (const RobotShape& shape : shapes) {
-    const CollisionChecker checker(scene, shape);
-    ASSERT_TRUE(checker.check(at(0, 0, 0)).free());
-    ASSERT_TRUE(checker.check(at(7.3, 0, 0)).free());
-    const CollisionCheck c = checker.check(at(0, 0, 0), at(7.3, 0, 0));
-    EXPECT_EQ(c.verdict, Verdict::contact);
-    EXPECT_NEAR(7.3 * c.at, 1, 0.51);
-    EXPECT_TRUE(checker.check(at(0, 0, 0), at(0.3, 1, 0)).free());
+  for (const double side : {-1.0, 1.0}) {
+    const Eigen::Vector3d low(0, 0.3 * side, -4), high(0, 0.3 * side, 4), far_low(0, 4 * side, -4),
+        far_high(0, 4 * side, 4);
+    add_triangle(wall, low, far_low, high);
+    add_triangle(wall, far_low, far_high, high);
   }
-}
-
-TEST(Collision, ATurnIsPartOfTheMotion) {
-  TriangleMesh pole;
-  add_triangle(pole, {0.8, 0.8, -1}, {0.82, 0.8, -1}, {0.8, 0.8, 1});
-  const CollisionChecker checker(CollisionScene(pole), shape::Box{{1.3, 0.1, 0.1}});
-  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
-  turned.rotate(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()));
-  EXPECT_TRUE(checker.check(Eigen::Isometry3d::Identity()).free());
-  EXPECT_TRUE(checker.check(turned).free());
-  const CollisionCheck c = checker.check(Eigen::Isometry3d::Identity(), turned);
-  EXPECT_EQ(c.verdict, Verdict::contact);
-  EXPECT_NEAR(c.at, 0.5, 0.1);
-}
-
-TEST(Collision, MotionsAgreeWithManySamples) {
-  Rng rng(3);
-  const TriangleMesh mesh = soup(rng, 40, 3, 0.4);
-  const CollisionScene scene(mesh);
-  int met = 0, free = 0;
-  for (const RobotShape& shape : {RobotShape(shape::Sphere{0.2}), RobotShape(shape::Box{{0.3, 0.1, 0.2}}),
-                                  RobotShape(shape::Mesh{surface_of(convex_hull(corners_of({0.1, 0.2, 0.3})))})}) {
-    const CollisionChecker checker(scene, shape);
-    for (int i = 0; i < 60; ++i) {
-      const Eigen::Isometry3d from = test::random_pose(rng, 2.5), to = test::random_pose(rng, 2.5);
-      const RigidMotion motion(from, to);
-      double least = std::numeric_limits<double>::infinity();
-      bool meets = false;
-      for (int k = 0; k <= 400 && !meets; ++k) {
-        const CollisionCheck c = checker.check(motion.at(k / 400.0));
-        meets = !c.free();
-        least = std::min(least, c.clearance_m);
-      }
-      const CollisionCheck c = checker.check(from, to);
-      if (meets) {
-        EXPECT_EQ(c.verdict, Verdict::contact);
-        EXPECT_EQ(c.clearance_m, 0);
-        ++met;
-      } else if (c.free()) {
-        EXPECT_LE(c.clearance_m, least + 1e-9);
-        EXPECT_GE(c.clearance_m, 0.9 * (least - motion.way_m(0.4) / 800) - 1e-3);
-        EXPECT_LE(checker.check(motion.at(c.at)).clearance_m, c.clearance_m / 0.9 + 1e-3);
-        ++free;
-      } else {
-        EXPECT_LT(least, motion.way_m(0.4) / 800 + 1e-3);
-      }
-    }
-  }
-  EXPECT_GT(met, 30);
-  EXPECT_GT(free, 30);
-}
-
-TEST(Collision, AMotionThatStaysIsItsPose) {
-  const CollisionChecker checker(CollisionScene(ground()), shape::Sphere{0.5});
-  const CollisionCheck c = checker.check(at(0, 0, 1), at(0, 0, 1));
-  EXPECT_TRUE(c.free());
-  EXPECT_NEAR(c.clearance_m, 0.5, 1e-9);
-  EXPECT_FALSE(checker.check(at(0, 0, 0.1), at(0, 0, 0.1)).free());
-}
-
-TEST(Collision, APathNamesItsFirstSegmentInCollision) {
-  const CollisionChecker checker(CollisionScene(ground()), shape::Sphere{0.5});
-  const auto path = [](std::initializer_list<double> heights) {
-    std::vector<View> views;
-    double x = 0;
-    for (const double z : heights) views.push_back({at(x += 1, 0, z)});
-    return views;
-  };
-  const PathCheck free = checker.check(path({2, 1, 0.8, 1, 3}));
-  EXPECT_TRUE(free.free());
-  EXPECT_NEAR(free.clearance_m, 0.3, 0.031);
-  EXPECT_LE(free.clearance_m, 0.3 + 1e-9);
-  EXPECT_TRUE(free.segment == 1 || free.segment == 2);
-  const PathCheck met = checker.check(path({2, 1, 1, 0.2, 3, 0.1}));
-  EXPECT_EQ(met.verdict, Verdict::contact);
-  EXPECT_EQ(met.segment, 2U);
-  EXPECT_EQ(checker.check(path({2, 1, -1})).segment, 1U);  // through it
-  EXPECT_EQ(checker.check(path({0.2})).verdict, Verdict::contact);
-  EXPECT_NEAR(checker.check(path({2})).clearance_m, 1.5, 1e-9);
-  EXPECT_TRUE(std::isinf(checker.check(Views{}).clearance_m));
-  EXPECT_TRUE(checker.check(Views{}).free());
-  auto nan = path({2, 2, 2, 2});
-  nan[2].T_W_C.translation().y() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(checker.check(nan).verdict, Verdict::bad_pose);
-  EXPECT_EQ(checker.check(nan).segment, 1U);
-}
-
-// What is known to go wrong in FCL 0.7: nothing hangs, throws or is free.
-TEST(CollisionHazard, BadPosesAreInCollision) {
-  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  for (const RobotShape& shape : shapes_of_half_a_metre()) {
-    const CollisionChecker checker(CollisionScene(ground()), shape);
-    for (int row = 0; row < 3; ++row)
-      for (int column = 0; column < 4; ++column)
-        for (const double bad : {nan, inf, -inf, 1e300, 1e7}) {
-          Eigen::Isometry3d pose = at(0, 0, 5);
-          pose.matrix()(row, column) = bad;
-          EXPECT_EQ(checker.check(pose).verdict, Verdict::bad_pose);
-          EXPECT_EQ(checker.check(at(0, 0, 5), pose).verdict, Verdict::bad_pose);
-          EXPECT_EQ(checker.check(pose, at(0, 0, 5)).verdict, Verdict::bad_pose);
-        }
-    Eigen::Isometry3d mirrored = at(0, 0, 5);
-    mirrored.linear()(0, 0) = -1;
-    EXPECT_EQ(checker.check(mirrored).verdict, Verdict::bad_pose);
-    mirrored.linear().setZero();
-    EXPECT_EQ(checker.check(mirrored).verdict, Verdict::bad_pose);
-  }
-}
-
-TEST(CollisionHazard, BoxesFarApartAreMeasured) {
-  TriangleMesh box = surface_of(convex_hull(corners_of({0.03, 0.12, 0.1})));
-  const CollisionScene scene(box);
-  for (const double away : {10.0, 1e3, 1e5, 9e5}) {
-    const CollisionCheck c = CollisionChecker(scene, shape::Box{{0.025, 0.35, 1.8}}).check(at(away, 0, 0));
-    EXPECT_TRUE(c.free());
-    EXPECT_NEAR(c.clearance_m, away - 0.055, 1e-6);
-  }
-}
-
-TEST(CollisionHazard, HugeCoordinates) {
-  TriangleMesh far = ground();
-  for (Eigen::Vector3f& v : far.vertices) v.x() += 9e5F;
-  const CollisionChecker checker(CollisionScene(far), shape::Box{{0.5, 0.5, 0.5}});
-  EXPECT_NEAR(checker.check(at(9e5, 0, 1)).clearance_m, 0.5, 1e-6);
-  EXPECT_FALSE(checker.check(at(9e5, 0, 0.4)).free());
-  EXPECT_FALSE(checker.check(at(9e5 - 5, 0, -3), at(9e5 + 1, 0, 3)).free());
-  far.vertices[0].x() = 1e9F;
-  EXPECT_REFUSED(CollisionScene(far), "up to 1e6 m");
-}
-
-TEST(CollisionHazard, TrianglesWithoutAreaStayWhereTheyAre) {
-  const std::vector<RobotShape> shapes = {shape::Sphere{0.1}, shape::Box{{0.1, 0.1, 0.1}}, shape::Sphere{0}};
-  for (const auto& [a, b, c] : std::vector<Triangle3>{{{{0, 0, 1}, {0, 0, 1}, {0, 0, 1}}},
-                                                      {{{-1, 0, 1}, {0, 0, 1}, {1, 0, 1}}},
-                                                      {{{-1, 0, 1}, {1, 0, 1}, {1, 0, 1}}},
-                                                      {{{-1, 0, 1}, {-1, 0, 1}, {1, 0, 1}}},
-                                                      {{{1, 0, 1}, {-1, 0, 1}, {1, 0, 1}}},
-                                                      {{{1, 0, 1}, {0, 1e-9, 1}, {-1, 0, 1}}}}) {
-    TriangleMesh mesh;
-    add_triangle(mesh, a, b, c);
-    const CollisionScene scene(mesh);
-    for (const RobotShape& shape : shapes) {
-      const CollisionChecker checker(scene, shape);
-      const double size = checker.check(at(0, 0, 3)).clearance_m;
-      EXPECT_NEAR(size, std::get_if<shape::Sphere>(&shape) && std::get<shape::Sphere>(shape).radius_m == 0 ? 2 : 1.9,
-                  1e-5);
-      EXPECT_FALSE(checker.check(at(0, 0, 1)).free());
-      EXPECT_FALSE(checker.check(at(0, 0, 3), at(0, 0, -1)).free());
-    }
-  }
-}
-
-TEST(CollisionHazard, RefusesBadMeshesAndShapes) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  TriangleMesh mesh = ground();
-  mesh.vertices[2].y() = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_REFUSED(CollisionScene(mesh), "finite coordinates");
-  mesh = ground();
-  mesh.triangles[0][1] = 7;
-  EXPECT_REFUSED(CollisionScene(mesh), "uses vertex 7");
-  EXPECT_REFUSED(CollisionScene(TriangleMesh()), "no triangle");
-  const CollisionScene scene(ground());
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Sphere{-1}), "radius_m");
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Sphere{nan}), "radius_m");
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Box{{1, nan, 1}}), "half extents");
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Convex{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}), "plane");
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Mesh{}), "no triangle");
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Sphere{1}, {.resolution_m = 0}), "resolution_m");
-  EXPECT_REFUSED(CollisionChecker(scene, shape::Sphere{1}, {.clearance_error = 1}), "clearance_error");
-}
-
-TEST(CollisionHazard, TooManyQueriesAreUnresolved) {
-  const CollisionChecker checker(CollisionScene(ground()), shape::Sphere{0.5},
-                                 {.resolution_m = 1e-6, .most_queries = 20});
-  const CollisionCheck c = checker.check(at(-9, 0, 0.501), at(9, 0, 0.501));
-  EXPECT_EQ(c.verdict, Verdict::unresolved);
-  EXPECT_FALSE(c.free());
-  EXPECT_EQ(c.clearance_m, 0);
-}
-
-TEST(Collision, TheSameFromAllThreads) {
-  Rng rng(4);
-  const CollisionScene scene(soup(rng, 200, 3, 0.4));
-  for (const RobotShape& shape : shapes_of_half_a_metre()) {
-    const CollisionChecker checker(scene, shape);
-    std::vector<Eigen::Isometry3d> poses;
-    for (int i = 0; i < 200; ++i) poses.push_back(test::random_pose(rng, 3));
-    std::vector<CollisionCheck> at_once(poses.size());
-    parallel_for(poses.size(), [&](std::size_t i) { at_once[i] = checker.check(poses[i]); });
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-      const CollisionCheck alone = checker.check(poses[i]);
-      EXPECT_EQ(alone.verdict, at_once[i].verdict);
-      EXPECT_EQ(alone.clearance_m, at_once[i].clearance_m);
-    }
-  }
+  const CollisionChecker plank(CollisionScene(wall), shape::Box{{0.05, 0.6, 0.05}});
+  static_assert(CollisionFree<CollisionChecker>);
+  const RrtStar<UprightPoses> planner(
+      {.space = {.bounds = {Eigen::Vector3d(-2, -1, -0.5), Eigen::Vector3d(2, 1, 0.5)}}, .samples = 400});
+  EXPECT_FALSE(plank.is_free(at(-1, 0, 0), at(1, 0, 0)));  // straight on it would hit both sides
+  const auto path = planner.plan(at(-1, 0, 0), at(1, 0, 0), plank, Rng(3));
+  ASSERT_TRUE(path);
+  ASSERT_GE(path->poses.size(), 3U);
+  for (std::size_t i = 1; i < path->poses.size(); ++i)
+    EXPECT_TRUE(plank.is_free(path->poses[i - 1], path->poses[i])) << i;
 }
 
 TEST(Collision, VerdictsHaveNames) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
+#include <vantage/planning/rigid_motion.hpp>
 #include <vantage/planning/rrt_star.hpp>
 
 #include <cmath>
@@ -40,7 +41,7 @@ struct Plank {
   }
   [[nodiscard]] bool is_free(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
     for (int i = 0; i <= 50; ++i)
-      if (!is_free(between(a, b, i / 50.0))) return false;
+      if (!is_free(RigidMotion(a, b).at(i / 50.0))) return false;
     return true;
   }
 };
@@ -167,7 +168,7 @@ TEST(Poses, DrawsAreUniformAndBetweenIsHalfWay) {
     EXPECT_TRUE(q.linear().col(2).isApprox(Eigen::Vector3d::UnitZ(), 1e-12));
     mean += p.linear() / 20'000;
     turn += turn_rad(Eigen::Isometry3d::Identity(), p) / 20'000;
-    const Eigen::Isometry3d middle = between(p, q, 0.5);
+    const Eigen::Isometry3d middle = RigidMotion(p, q).at(0.5);
     EXPECT_NEAR(pose_distance_m(p, middle, 0.3), 0.5 * pose_distance_m(p, q, 0.3), 1e-9);
     EXPECT_NEAR(pose_distance_m(middle, q, 0.3), 0.5 * pose_distance_m(p, q, 0.3), 1e-9);
   }

@@ -17,7 +17,4 @@ inline Eigen::Vector3d heading(const View& view) {
   return along.normalized();
 }
 
-/// The view from the same place that a robot takes which can neither pitch nor roll: level, in the same heading.
-inline View level(const View& view) { return look_at(view.position(), view.position() + heading(view)); }
-
 }  // namespace vantage
