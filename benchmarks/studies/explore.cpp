@@ -101,10 +101,10 @@ Json explore(const ExploreOptions& o, const Json& p) {
   RgbdWorld world(*input.scene, Rng(s.seed).fork(1), s.sensor());
   const std::vector<View> first = scene::look_all_around(input.start, deg(s.field_of_view_deg));
   Json result;
-  scene::explorer_of(s, input).with(s.preset, s.method, [&](auto loop) {
+  scene::explorer_of(s, input).with<RayCast>(s.method, s.stop_rule(), [&](auto loop, const auto& stop) {
     scene::Referee referee(input, s);
     History history(referee);
-    loop.run(world, input.start, first, s.stop_rule(), MeasuredClock{}, Rng(s.seed), referee, history);
+    loop.run(world, input.start, first, stop, MeasuredClock{}, Rng(s.seed), referee, history);
     result = history.json();
   });
   return result;

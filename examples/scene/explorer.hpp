@@ -30,12 +30,12 @@ using namespace vantage;
 
 /// A robot that explores: its map, and which policies make which method.
 struct Explorer {
-  Box3 bounds;           ///< to be explored [m]
-  double voxel_m = 0.1;  ///< of the map
-  double clearance_m = 0.3;
-  double range_m = 5;
-  double speed_m_s = 1;
-  Camera sensor = Camera::from_fov(128, 128, deg(60));  ///< as utilities render it
+  Box3 bounds;         ///< to be explored [m]
+  double voxel_m;      ///< of the map
+  double clearance_m;  ///< around the robot's centre
+  double range_m;      ///< of depth
+  double speed_m_s;
+  Camera sensor;  ///< as utilities render it
 
   template <class Update>
   [[nodiscard]] VoxelMap<Update> map() const {
@@ -45,29 +45,25 @@ struct Explorer {
                              .range = {.max_m = range_m, .no_return_m = range_m}});
   }
 
-  /// fly(loop) with the loop of a method, over a map with this update.
-  template <class Update, class F>
-  void with(const std::string& method, F&& fly) const {
+  /// fly(loop, stop) with the loop of a method, over a map with this update.
+  template <class Update, class Stop, class F>
+  void with(const std::string& method, const Stop& stop, F&& fly) const {
     const Shortcut<> route(AStar({.own_ball_m = clearance_m}));
     const TravelTradeoff tradeoff(route, {.speed_m_s = speed_m_s});
     const Frontier frontier({.cone = {.farthest_m = 0.5 * range_m, .min_cosine = 0.25}, .smallest_m2 = 0.02});
+    const Unexplored unexplored({.camera = sensor, .far_m = range_m});
     if (method == "fbe")
-      fly(NbvLoop{map<Update>(), Unexplored({.camera = sensor, .far_m = range_m}), frontier, tradeoff});
+      fly(NbvLoop{map<Update>(), unexplored, frontier, tradeoff}, stop);
     else if (method == "information_gain")
-      fly(NbvLoop{map<Update>(), InformationGain(sensor), frontier, tradeoff});
-    else if (method == "nbvp")
-      fly(NbvLoop{map<Update>(), Unexplored({.camera = sensor, .far_m = range_m}),
-                  ViewTree({.own_ball_m = clearance_m}), FirstOfBranch({.speed_m_s = speed_m_s})});
+      fly(NbvLoop{map<Update>(), InformationGain(sensor), frontier, tradeoff}, stop);
+    else if (method == "nbvp")  // a tree always proposes something
+      fly(NbvLoop{map<Update>(), unexplored, ViewTree({.own_ball_m = clearance_m}),
+                  FirstOfBranch({.speed_m_s = speed_m_s})},
+          AnyOf{stop, UtilityBelow{1e-9}});
     else
       fly(NbvLoop{map<Update>(), Uninformed{}, Local({.radius_m = 2}),
-                  MinusCost(route, {.weight_per_m = 0, .speed_m_s = speed_m_s})});
-  }
-  template <class F>
-  void with(PresetKind preset, const std::string& method, F&& fly) const {
-    if (preset == PresetKind::thesis)
-      with<RayCast>(method, fly);
-    else
-      with<Projective>(method, fly);
+                  MinusCost(route, {.weight_per_m = 0, .speed_m_s = speed_m_s})},
+          stop);
   }
 };
 
@@ -76,7 +72,8 @@ inline Explorer explorer_of(const Options& o, const Input& input) {
           .voxel_m = o.map_voxel_m,
           .clearance_m = o.body_radius_m,
           .range_m = o.range_m,
-          .speed_m_s = o.speed_m_s};
+          .speed_m_s = o.speed_m_s,
+          .sensor = Camera::from_fov(128, 128, deg(o.field_of_view_deg))};
 }
 
 /// Everything around a point: level, up and down, so that no direction but straight up and down is left out. What a

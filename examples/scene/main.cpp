@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "explore.hpp"
 #include "missions.hpp"
 
 namespace scene {
@@ -22,6 +23,7 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
     c["body_radius_m"] = o.body_radius_m;
   }
   if (o.explores()) {
+    c["preset"] = vantage::name_of(o.preset);
     c["map_voxel_m"] = o.map_voxel_m;
     c["speed_m_s"] = o.speed_m_s;
   } else {
@@ -30,7 +32,7 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
   c["range_m"] = o.range_m;
   c["voxel_m"] = o.voxel_m;
   c["threshold_m"] = o.threshold_m;
-  c["budget_s"] = budget(o.budget_s);
+  c["budget_s"] = budget(o.most_time_s());
   c["budget_travel_m"] = budget(o.travel_m);
   if (o.most_measurements()) c["budget_measurements"] = *o.most_measurements();
   return c;
@@ -45,10 +47,12 @@ void run(const scene::Options& o) {
   vantage::make_folder(o.out);
   const scene::Input input = scene::load(o);
   std::cerr << input.name << ". " << input.note << '\n';
-  if (o.explores())
-    scene::explore(o, input);
-  else
+  if (!o.explores())
     scene::look_around(o, input);
+  else if (o.preset == vantage::PresetKind::thesis)
+    scene::explore<vantage::RayCast>(o, input);
+  else
+    scene::explore<vantage::Projective>(o, input);
   std::cout << (o.out / "report.html").string() << '\n';
 }
 

@@ -14,7 +14,4 @@ nlohmann::ordered_json config(const Options& o, const Input& input);
 /// Views from a list are taken one after the other, and no way between them is planned.
 void look_around(const Options& o, const Input& input);
 
-/// The robot maps voxels, and flies where they are free.
-void explore(const Options& o, const Input& input);
-
 }  // namespace scene

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
@@ -63,14 +64,15 @@ struct Options : MissionOptions {
             .depth_noise = depth_noise,
             .max_depth_m = range_m};
   }
-  /// An exploration ends when there is nothing left to see; a look around never would.
+  /// 15 minutes, unless told: an exploration at random never ends by itself.
+  [[nodiscard]] double most_time_s() const { return explores() && std::isinf(budget_s) ? 900 : budget_s; }
   [[nodiscard]] std::optional<std::uint64_t> most_measurements() const {
     if (measurements != std::numeric_limits<std::uint64_t>::max()) return measurements;
     return explores() ? std::nullopt : std::optional<std::uint64_t>(40);
   }
   [[nodiscard]] AnyOf<MissionTime, Measurements, Travel> stop_rule() const {
     const auto finite = [](double x) { return std::min(x, std::numeric_limits<double>::max()); };
-    return AnyOf{MissionTime{finite(budget_s)}, Measurements{most_measurements().value_or(measurements)},
+    return AnyOf{MissionTime{finite(most_time_s())}, Measurements{most_measurements().value_or(measurements)},
                  Travel{finite(travel_m)}};
   }
 };

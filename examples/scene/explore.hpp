@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
-
-// A robot explores a scene that it does not know: it maps voxels, and flies where they are free.
+#pragma once
 #include <unistd.h>
 
 #include <iostream>
@@ -19,10 +18,12 @@
 
 namespace scene {
 
+/// A robot explores a scene that it does not know: it maps voxels with this update, and flies where they are free.
+template <class Update>
 void explore(const Options& o, const Input& input) {
   RgbdWorld world(*input.scene, Rng(o.seed).fork(1), o.sensor());
   const std::vector<View> first = look_all_around(input.start, deg(o.field_of_view_deg));
-  explorer_of(o, input).with(o.preset, o.method, [&](auto loop) {
+  explorer_of(o, input).with<Update>(o.method, o.stop_rule(), [&](auto loop, const auto& stop) {
     Referee referee(input, o);
     MissionClock clock(o.clock);
     Recorder recorder(
@@ -30,14 +31,18 @@ void explore(const Options& o, const Input& input) {
         [&](const auto& map) { return referee.metrics(map); });
     Album album(o.out / "views", o.range_m);
     Progress progress(recorder.record(), std::cerr,
-                      {.budget_s = o.budget_s,
+                      {.budget_s = o.most_time_s(),
                        .budget_steps = o.measurements,
                        .terminal_fd = STDERR_FILENO,
                        .utf8 = locale_is_utf8()});
-    loop.run(world, input.start, first, o.stop_rule(), clock, Rng(o.seed), referee, recorder, album, progress);
+    loop.run(world, input.start, first, stop, clock, Rng(o.seed), referee, recorder, album, progress);
     write_bt(o.out / "map.bt", loop.map);
     write_exploration(o, input, referee, album, recorder.record());
   });
 }
+
+// Compiled apart, in explore_thesis.cpp and explore_reference.cpp.
+extern template void explore<RayCast>(const Options&, const Input&);
+extern template void explore<Projective>(const Options&, const Input&);
 
 }  // namespace scene
