@@ -21,8 +21,7 @@ constexpr Rgb ink = {20, 20, 20}, blue = {0, 114, 178}, red = {214, 69, 61};
 
 /// The map from above after a step, with the way flown until then and the views taken.
 Picture from_above(const Referee::Growth& growth, const Referee& referee, const MissionRecord& record, int longer_px) {
-  const Box3 box = growth.plan.grid.box();
-  Canvas canvas(Box2(box.min().head<2>(), box.max().head<2>()), longer_px);
+  Canvas canvas(referee.growth().back().plan.known(), longer_px);
   growth.plan.fill(canvas);
   const double scale = longer_px / 1000.0;
   std::size_t flown = 0;

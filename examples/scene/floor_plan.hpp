@@ -45,6 +45,21 @@ struct FloorPlan {
                ? static_cast<Space>(columns(v.y(), v.x()))
                : Space::unknown;
   }
+  /// Around all that is known, and a bit more.
+  [[nodiscard]] Box2 known() const {
+    Box2 box;
+    const Eigen::Vector2d origin = grid.origin().head<2>(), edge = grid.voxel_m().head<2>();
+    for (Eigen::Index y = 0; y < columns.rows(); ++y)
+      for (Eigen::Index x = 0; x < columns.cols(); ++x)
+        if (columns(y, x) != 0) {
+          const Eigen::Vector2d corner(static_cast<double>(x), static_cast<double>(y));
+          box.extend(Eigen::Vector2d(origin + corner.cwiseProduct(edge)));
+          box.extend(Eigen::Vector2d(origin + (corner.array() + 1).matrix().cwiseProduct(edge)));
+        }
+    const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.1);
+    return box.isEmpty() ? Box2(grid.box().min().head<2>(), grid.box().max().head<2>())
+                         : Box2(box.min() - margin, box.max() + margin);
+  }
   void fill(Canvas& canvas) const {
     canvas.fill([this](const Eigen::Vector2d& p) {
       switch (at(p)) {

@@ -47,16 +47,17 @@ namespace detail {
 /// What a pixel's ray has gathered. With p_i the probability that the i-th voxel on the ray is occupied, H_i its
 /// entropy and T_i = (1 - p_1) ... (1 - p_(i-1)) the chance that the ray gets there:
 ///
-///     entropy = sum_i T_i H_i
+///     entropy = sum_i T_i H_i,    reach = sum_i T_i
 ///     gain    = sum_i T_i ((1 - p_i) (H_i - H_i after a pass) + p_i (H_i - H_i after a hit))
 struct RayInformation {
-  float visibility = 1, entropy = 0, gain = 0;
+  float visibility = 1, reach = 0, entropy = 0, gain = 0;
 
   static constexpr float negligible = 1e-5F;  ///< visibility: what is behind adds less than 1e-4 nats
 
   void pass(const OccupancyTable& table, float log_odds) {
     const OccupancyTable::Voxel v = table(log_odds);
     entropy += visibility * v.entropy;
+    reach += visibility;
     visibility *= 1 - v.probability;
   }
   template <VoxelUpdate S>
@@ -66,6 +67,7 @@ struct RayInformation {
                 hit = table(sensor.after_hit(log_odds, distance_m)).entropy;
     gain += visibility * ((1 - v.probability) * (v.entropy - passed) + v.probability * (v.entropy - hit));
     entropy += visibility * v.entropy;
+    reach += visibility;
     visibility *= 1 - v.probability;
   }
 };
@@ -85,10 +87,14 @@ void for_each_pixel(const Camera& camera, F&& f) {
 }  // namespace detail
 
 /// Draws a voxel map, by one march a ray, whatever the channels:
-/// - Depth: camera z at which the ray enters the first occupied voxel; 0 if it starts in one
-/// - Entropy and Uncertainty: entropy along the ray [nats], as far as `range_m` (camera z): eq. 5.11, in the form for
-///   voxels of Isler et al., "An information gain formulation for active volumetric 3D reconstruction", ICRA 2016
-///   (occlusion aware); a ray through nothing but unknown space has 2 ln 2
+/// - Depth: camera z at which the ray enters the first occupied voxel; the smallest above 0 if it starts in one
+/// - Entropy: along the ray [nats], as far as `range_m` (camera z): eq. 5.11, in the form for voxels of Isler et al.,
+/// "An
+///   information gain formulation for active volumetric 3D reconstruction", ICRA 2016 (occlusion aware); a ray through
+///   nothing but unknown space has 2 ln 2. It grows with the way that is free, however well that is known
+/// - Uncertainty: the mean entropy of the voxels that the ray can see, entropy / reach: ln 2 where nothing is known,
+/// less
+///   wherever something is, 0 where there is no voxel
 /// - InformationGain: how much of the entropy of the voxels a measurement along the ray is expected to take away
 ///   [nats], expected over where it ends, the first voxel that is occupied: hit there, passed before. The map's own
 ///   `sensor` says what a hit and a pass change; voxels that it is too sure of add less than 0 (cf. Palazzolo and
@@ -133,13 +139,14 @@ requires(renders_voxels<Channels...>) void render_voxels(const M& map, const S& 
           sum.pass(table, log_odds);
       }
       if constexpr (entropy) out.entropy(row, column) = sum.entropy;
-      if constexpr (uncertainty) out.uncertainty(row, column) = sum.entropy;
+      if constexpr (uncertainty) out.uncertainty(row, column) = sum.reach > 0 ? sum.entropy / sum.reach : 0;
       if constexpr (gain) out.information_gain(row, column) = sum.gain;
     }
     if constexpr (depth) {
       if (!z)  // from where the march ended
         if (const auto hit = caster.first_occupied(ray)) z = hit->t;
-      out.depth(row, column) = z ? static_cast<float>(*z) : std::numeric_limits<float>::quiet_NaN();
+      out.depth(row, column) = z ? std::max(static_cast<float>(*z), std::numeric_limits<float>::min())
+                                 : std::numeric_limits<float>::quiet_NaN();
     }
   });
 }

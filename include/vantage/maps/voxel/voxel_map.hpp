@@ -129,7 +129,7 @@ class VoxelMap {
   /// All that is known of a block (any block), or none; good until the map changes.
   [[nodiscard]] const VoxelBlock* block(const Eigen::Vector3i& block) const { return blocks_.find(block); }
 
-  /// Draws Depth, Entropy, Uncertainty (the same) and InformationGain, in any combination; see render_voxels. Entropy
+  /// Draws Depth, Entropy, Uncertainty and InformationGain, in any combination; see render_voxels. Entropy
   /// and gain reach as far as the depth range.
   template <class... Channels>
   void render(const View& view, const Camera& camera, Rendering<Channels...>& out) const
