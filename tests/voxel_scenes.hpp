@@ -19,6 +19,11 @@ namespace vantage::test {
 
 inline const Box3 small_room(Eigen::Vector3d(-1.3, -0.9, 0), Eigen::Vector3d(1.4, 1.2, 1.7));
 
+/// Without noise.
+inline Frame observe_room(const View& view, const Camera& camera) {
+  return observe(all_of(Cuboid{small_room}, Sphere{{0.4, 0.2, 0.6}, 0.35}), view, camera, small_room);
+}
+
 /// From a random point in the room in a random direction, with noise, holes in the depth and labels 0 to 4.
 inline Frame random_frame(Rng rng, int size_px = 48) {
   const Eigen::Vector3d eye =
@@ -26,8 +31,7 @@ inline Frame random_frame(Rng rng, int size_px = 48) {
                              Eigen::Vector3d(rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9), rng.uniform(0.1, 0.9)));
   const double heading = rng.uniform(0, 2 * std::numbers::pi), pitch = rng.uniform(-0.7, 0.5);
   const View view = look_at(eye, eye + Eigen::Vector3d(std::cos(heading), std::sin(heading), std::sin(pitch)));
-  Frame f = observe(all_of(Cuboid{small_room}, Sphere{{0.4, 0.2, 0.6}, 0.35}), view,
-                    Camera::from_fov(size_px, size_px - 7, deg(70)), small_room);
+  Frame f = observe_room(view, Camera::from_fov(size_px, size_px - 7, deg(70)));
   f.labels.resize(f.depth.rows(), f.depth.cols());
   for (Eigen::Index i = 0; i < f.depth.size(); ++i) {
     float& d = f.depth.data()[i];

@@ -20,8 +20,10 @@
 #include <vantage/maps/field/latent.hpp>
 #include <vantage/maps/field/matern.hpp>
 #include <vantage/maps/field/methods.hpp>
+#include <vantage/maps/voxel/voxel_map.hpp>
 
 #include "lists.hpp"
+#include "voxel_scenes.hpp"
 
 // Every map, and how to try it. A new map is one line in a list and a MapFixture; the contract suites, the matrix and
 // the static product follow.
@@ -38,11 +40,12 @@ namespace vantage::test {
 using CarryMap = Carry<archetype::FullMap, archetype::Persistent<>>;
 using OursMap = Ours<>;
 using LatentMap = Ours<preset::thesis, Latent<>>;
+using PublishedVoxels = VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>;
 using MaternMap = IntegralGp<Matern32>;
 
-using Maps =
-    List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
-         Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>>;
+using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap,
+                  OursMap, Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>,
+                  VoxelMap<>, PublishedVoxels, VoxelMap<RayCast, ClassCounts<5>>>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
 /// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
 /// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether
@@ -130,6 +133,49 @@ struct MapFixture<IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>> : Field
   using M = IntegralGp<Kernel, Cells, Belief, Resolution, Sensor>;
   static M make(int depth = 4) { return M(typename M::Config{.tree = {.depth = depth}, .prior_mean = 0.75}); }
   static M large() { return make(5); }
+};
+
+/// Frames of a small room, from wherever they are asked for.
+struct RoomWorld {
+  std::uint64_t seed = 0;
+  std::optional<Frame> observe(const View& view) {
+    Frame f = random_frame(Rng(seed++), 40);
+    f.depth = observe_room(view, f.camera).depth;
+    f.view = view;
+    return f;
+  }
+};
+
+template <class Update, class Semantics, class Clearance>
+struct MapFixture<VoxelMap<Update, Semantics, Clearance>> {
+  using M = VoxelMap<Update, Semantics, Clearance>;
+  using World = RoomWorld;
+  static constexpr bool looks_down_only = false;
+  static M make(double voxel_m = 0.1) {
+    typename M::Config c;
+    c.bounds = small_room;
+    c.voxel_m = voxel_m;
+    c.clearance_m = 0.15;
+    return M(c);
+  }
+  static M large() { return make(0.03); }
+  static Frame measurement(std::size_t k) { return random_frame(Rng(11).fork(k), 40); }
+  static std::vector<std::pair<std::string, Frame>> refused() {
+    const Frame good = measurement(1);
+    std::vector<std::pair<std::string, Frame>> bad(6, {"", good});
+    bad[0].first = "no depth", bad[0].second.depth.resize(0, 0);
+    bad[1].first = "depth of another size", bad[1].second.depth.setOnes(3, 4);
+    bad[2].first = "depth 0", bad[2].second.depth(3, 4) = 0;
+    bad[3].first = "infinite depth", bad[3].second.depth(3, 4) = std::numeric_limits<float>::infinity();
+    bad[4].first = "NaN pose", bad[4].second.view.T_W_C.translation().x() = nan;
+    bad[5].first = "no focal length", bad[5].second.camera.fx = 0;
+    return bad;
+  }
+  static std::vector<View> views() {
+    std::vector<View> all;
+    for (std::size_t k = 0; k < 5; ++k) all.push_back(measurement(k).view);
+    return all;
+  }
 };
 
 }  // namespace vantage::test
