@@ -106,7 +106,10 @@ class OccupancyOctree {
   /// A voxel's place in the order of the tree: the bits of its indices (-32768 to 32767) interleaved, x lowest.
   static std::uint64_t code_of(const Eigen::Vector3i& voxel) {
     std::uint64_t code = 0;
-    for (int axis = 0; axis < 3; ++axis) code |= spread(static_cast<std::uint64_t>(voxel[axis] + half)) << axis;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int key = voxel[axis] + half;
+      code |= spread(static_cast<std::uint64_t>(key)) << axis;
+    }
     return code;
   }
   /// The voxel with a code: that from voxel * voxel_m() to one voxel further.

@@ -22,7 +22,8 @@ inline Eigen::Vector3i move_at(std::size_t index) {
   return {i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1};
 }
 inline std::size_t index_of_move(const Eigen::Vector3i& move) {
-  return static_cast<std::size_t>(move.x() + 1 + 3 * (move.y() + 1) + 9 * (move.z() + 1));
+  const int index = move.x() + 1 + 3 * (move.y() + 1) + 9 * (move.z() + 1);
+  return static_cast<std::size_t>(index);
 }
 /// The axes along which a move goes, bit 0 for x: moves of one kind are equally long.
 inline unsigned kind_of_move(const Eigen::Vector3i& move) {

@@ -308,8 +308,8 @@ void SceneRenderer::render(const View& view, const Camera& camera, Rendering<Cha
           store(out.g, row, column, rgb[1]);
           store(out.b, row, column, rgb[2]);
         }
-        if constexpr (depth)  // infinity less itself is NaN
-          store(out.depth, row, column, Lanes(packet.distance + (packet.distance - packet.distance)));
+        if constexpr (depth)  // no times infinity is NaN
+          store(out.depth, row, column, Lanes(packet.distance + 0.0F * packet.distance));
         if constexpr (normal) {
           const Lanes along = packet.direction_x * packet.normal_x + packet.direction_y * packet.normal_y +
                               packet.direction_z * packet.normal_z;

@@ -110,11 +110,9 @@ class Dilation {
         }
       for (; next < rows_.size() && rows_[next].width == width; ++next)
         for (std::size_t z = 0; z < block_edge; ++z) {
+          const int row_z = rows_[next].z + reach_, row_y = rows_[next].y + reach_;
           std::uint64_t eight;
-          std::memcpy(&eight,
-                      &middle[z + static_cast<std::size_t>(rows_[next].z + reach_)]
-                             [static_cast<std::size_t>(rows_[next].y + reach_)],
-                      8);
+          std::memcpy(&eight, &middle[z + static_cast<std::size_t>(row_z)][static_cast<std::size_t>(row_y)], 8);
           grown.slice[z] |= eight;
         }
     }

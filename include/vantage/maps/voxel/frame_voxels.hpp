@@ -62,8 +62,9 @@ class FrameVoxels {
     for (int a = 0; a < 3; ++a) {
       auto& offset = offset_[static_cast<std::size_t>(a)];
       const int below = a == 0 ? 1 : a == 1 ? size.x() : size.x() * size.y();
-      offset.resize(static_cast<std::size_t>(block_edge * size[a]));
-      for (int i = 0; i < block_edge * size[a]; ++i)
+      const int length = block_edge * size[a];
+      offset.resize(static_cast<std::size_t>(length));
+      for (int i = 0; i < length; ++i)
         offset[static_cast<std::size_t>(i)] = (i >> 3) * below * 512 + ((i & 7) << 3 * a);
     }
   }
@@ -200,7 +201,7 @@ void FrameVoxels::for_pixels(const VoxelGrid& grid, const Frame& frame, const De
   if (count() == 0) return;
   const Camera& camera = frame.camera;
   // In voxels from the first one of the blocks.
-  const Eigen::Vector3d edge = grid.voxel_m();
+  const Eigen::Vector3d& edge = grid.voxel_m();
   const Eigen::Matrix3d axes = edge.cwiseInverse().asDiagonal() * frame.view.T_W_C.linear();
   const Eigen::Vector3d from = grid.origin() + edge.cwiseProduct(first_voxel().cast<double>());
   const Eigen::Vector3f eye = (frame.view.position() - from).cwiseQuotient(edge).cast<float>();

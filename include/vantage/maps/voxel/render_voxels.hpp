@@ -77,7 +77,8 @@ template <class F>
 void for_each_pixel(const Camera& camera, F&& f) {
   constexpr int tile = 16;
   const int across = (camera.width + tile - 1) / tile, down = (camera.height + tile - 1) / tile;
-  parallel_for(static_cast<std::size_t>(across * down), [&](std::size_t i) {
+  const int tiles = across * down;
+  parallel_for(static_cast<std::size_t>(tiles), [&](std::size_t i) {
     const int top = static_cast<int>(i) / across * tile, left = static_cast<int>(i) % across * tile;
     for (int row = top; row < std::min(top + tile, camera.height); ++row)
       for (int column = left; column < std::min(left + tile, camera.width); ++column) f(row, column);

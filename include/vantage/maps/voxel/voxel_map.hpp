@@ -248,7 +248,7 @@ FrameVoxels::Region VoxelMap<Update, Semantics, Clearance>::region(const Frame& 
       if (const auto most = frame.labels.maxCoeff(); most >= Semantics::classes)
         throw Error(where, concat("label ", most), concat("below ", Semantics::classes));
     }
-  const FrameVoxels::Region r = FrameVoxels::around(grid_, frame, config_.range);
+  FrameVoxels::Region r = FrameVoxels::around(grid_, frame, config_.range);
   std::size_t missing = 0;
   for (int z = 0; z < r.size.z(); ++z)
     for (int y = 0; y < r.size.y(); ++y)
