@@ -25,13 +25,12 @@ class ExploreMission : public MissionProgram {
 const std::string room = "--room 1 --pixels 128 --fov 75 --clock modelled --voxel 0.05 --body 0.15";
 
 TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
-  const Ended e = run(room + out("a"));
+  const Ended e = run(room + " --measurements 60" + out("a"));
   ASSERT_EQ(e.code, 0) << e.err;
   const auto a = folder.path / "a";
   EXPECT_EQ(e.out, (a / "report.html").string() + "\n");
   const auto json = mission("a");
   EXPECT_EQ(json["config"]["method"], "fbe");
-  EXPECT_EQ(json["stop_reason"], "nothing_to_do");
   const auto& steps = json["steps"];
   ASSERT_GE(steps.size(), 3u);
   double coverage = 0;
@@ -40,9 +39,7 @@ TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
     EXPECT_GE(m["coverage"].get<double>(), coverage);
     coverage = m["coverage"];
     EXPECT_EQ(m["collisions"], 0);
-    if (step["planned"].get<bool>()) {
-      EXPECT_GT(m["clearance_m"].get<double>(), 0);
-    }
+    if (step["planned"].get<bool>()) { EXPECT_GT(m["clearance_m"].get<double>(), 0); }
   }
   EXPECT_GE(coverage, 0.95);
   for (const char* picture : {"map.png", "growth.png", "coverage.png", "view_1.png", "mesh_1.png"})
@@ -51,6 +48,15 @@ TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
   EXPECT_EQ(text_of(a / "map.bt").substr(0, 9), "# Octomap");
   EXPECT_EQ(text_of(a / "path.csv").substr(0, 4), "leg,");
   EXPECT_NE(text_of(a / "report.html").find("</html>"), std::string::npos);
+}
+
+TEST_F(ExploreMission, EndsWhenNoFrontierIsLeft) {
+  ASSERT_EQ(
+      run("--room 1 --pixels 256 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.08" + out("a")).code,
+      0);
+  const auto json = mission("a");
+  EXPECT_EQ(json["stop_reason"], "nothing_to_do");
+  EXPECT_GT(json["steps"].back()["metrics"]["coverage"].get<double>(), 0.9);
 }
 
 TEST_F(ExploreMission, EveryMethodExploresAndRepeatsWithAnyThreads) {
