@@ -180,7 +180,8 @@ struct FrameVoxels::Line {
                     tz = ((dz > 0 ? l.high_z - inside : inside) - l.eye_z) / dz;
         const float ux = dx == 0 ? far : tx, uy = dy == 0 ? far : ty, uz = dz == 0 ? far : tz;
         const float u = ux < uy ? ux : uy, t = u < uz ? u : uz;
-        z = ends_in | !(t < far) ? far : t;
+        const bool leaves = !ends_in & (t < far);
+        z = leaves ? t : far;
       }
       const float x = l.eye_x + z * dx, y = l.eye_y + z * dy, w = l.eye_z + z * dz;
       const bool in = (x >= 0) & (x < l.high_x) & (y >= 0) & (y < l.high_y) & (w >= 0) & (w < l.high_z) & (z > 0);

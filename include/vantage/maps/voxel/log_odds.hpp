@@ -34,7 +34,7 @@ void add_log_odds(const VoxelBits& hit, const VoxelBits& pass, float hit_gain, f
         const float sum = l[i] + weight(first + i) * gain;
         const float above = sum > least ? sum : least;
         const float clamped = above < most ? above : most;
-        l[i] = hit_i | pass_i ? clamped : l[i];
+        l[i] = (hit_i | pass_i) ? clamped : l[i];
       }
     }
 }
