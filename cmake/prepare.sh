@@ -7,7 +7,7 @@ jobs=${VANTAGE_JOBS:-$(nproc)}
 script=$(cd "$(dirname "$0")" && pwd)/${0##*/}
 script=${script#"$root"/}
 
-packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libembree-dev libqhull-dev libnanoflann-dev
+packages="cmake ninja-build g++ libeigen3-dev libtbb-dev libembree-dev libqhull-dev libfcl-dev libccd-dev libnanoflann-dev
           libpng-dev zlib1g-dev libstb-dev libtinygltf-dev nlohmann-json3-dev libcli11-dev
           libgtest-dev libbenchmark-dev libopenblas-dev liboctomap-dev"
 

@@ -27,8 +27,22 @@ endif()
 
 set(CMAKE_CXX_EXTENSIONS OFF)
 
+# vantage::collision alone can be done without: what of our sources and headers needs it is then left out.
+function(vantage_leave_out files) # name of a list
+  if(NOT VANTAGE_WITH_COLLISION)
+    set(left_out ${${files}})
+    list(FILTER left_out INCLUDE REGEX "(/|planning_)(collision|frustum_overlap|convex_hull)(_test)?\\.[ch]pp$")
+    foreach(file IN LISTS left_out)
+      message(STATUS "Left out, as VANTAGE_WITH_COLLISION=OFF: ${file}")
+      list(REMOVE_ITEM ${files} ${file})
+    endforeach()
+    set(${files} ${${files}} PARENT_SCOPE)
+  endif()
+endfunction()
+
 add_library(vantage_strict INTERFACE)
-target_link_libraries(vantage_strict INTERFACE vantage::vantage vantage::io vantage::sim vantage::eval vantage::mission)
+target_link_libraries(vantage_strict INTERFACE vantage::vantage vantage::io vantage::sim vantage::eval vantage::mission
+  $<TARGET_NAME_IF_EXISTS:vantage::collision>)
 target_compile_options(vantage_strict INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
   $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>) # g++ 12 finds some in its own AVX-512 header
 target_compile_definitions(vantage_strict INTERFACE
@@ -45,6 +59,7 @@ target_compile_options(vantage_quick INTERFACE $<$<CONFIG:Release>:-O1> $<$<BOOL
 # One program a source file of this folder: NAME from NAME.cpp, under PREFIX in the list of targets.
 function(vantage_programs_from prefix pattern) # libraries...
   file(GLOB sources CONFIGURE_DEPENDS "${pattern}")
+  vantage_leave_out(sources)
   set(targets "")
   foreach(source IN LISTS sources)
     cmake_path(GET source STEM name)

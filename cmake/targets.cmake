@@ -39,6 +39,13 @@ if(VANTAGE_WITH_SIM)
   vantage_target(vantage_sim vantage Qhull::qhull_r embree)
 endif()
 
+if(VANTAGE_WITH_COLLISION)
+  find_package(Qhull CONFIG REQUIRED)
+  find_package(ccd REQUIRED)
+  find_package(fcl 0.7 REQUIRED)
+  vantage_target(vantage_collision vantage fcl ccd Qhull::qhull_r)
+endif()
+
 if(VANTAGE_WITH_EVAL)
   find_package(nanoflann 1.4 REQUIRED)
   vantage_target(vantage_eval vantage nanoflann::nanoflann)

@@ -3,7 +3,8 @@
 //
 // Swapping one policy. What the mission maps with, what it values, where it may go and how it chooses are four
 // arguments; a baseline is the same program with another one. (One field says little about which is best: the studies
-// take many.)
+// take many. Variance reduction looks only where the map expects a hotspot: one that an early high view missed stays
+// missed, and so a utility that looks everywhere can win.)
 #include <cstdio>
 
 #include <vantage/eval/field_metrics.hpp>

@@ -95,4 +95,31 @@ class DrawnVoxels : public archetype::Map {
   std::set<std::tuple<int, int, int>> seen_;
 };
 
+/// The same with its frontier: free voxels with an unexplored face neighbour, whose normal is the mean direction to
+/// their free neighbours (of 26); those in whose middle it vanishes are left out.
+class DrawnFrontiers : public DrawnVoxels {
+ public:
+  using DrawnVoxels::DrawnVoxels;
+
+  [[nodiscard]] std::vector<Region> regions(frontier) const {
+    std::vector<Region> found;
+    for (int z = 0; z < grid().size().z(); ++z)
+      for (int y = 0; y < grid().size().y(); ++y)
+        for (int x = 0; x < grid().size().x(); ++x) {
+          const Eigen::Vector3i voxel(x, y, z);
+          if (state(voxel) != Space::free) continue;
+          bool open = false;
+          Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+          for (int k = 0; k < 27; ++k) {
+            const Eigen::Vector3i step(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1), next = voxel + step;
+            if (step.isZero() || !grid().contains(next)) continue;
+            open = open || (step.cwiseAbs().sum() == 1 && !explored(next));
+            if (state(next) == Space::free) sum += step.cast<double>().cwiseProduct(grid().voxel_m()).normalized();
+          }
+          if (open && sum.norm() > 1e-9) found.push_back({grid().centre(voxel), sum.normalized()});
+        }
+    return found;
+  }
+};
+
 }  // namespace vantage::test

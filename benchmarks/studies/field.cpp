@@ -17,16 +17,16 @@
 #include "field_claims.hpp"
 #include "field_methods.hpp"
 #include "field_mission.hpp"
+#include "field_options.hpp"
 #include "field_pictures.hpp"
 #include "statistics.hpp"
-#include "study_options.hpp"
 #include "table.hpp"
 #include "table_3_1.hpp"
 #include "units.hpp"
 
 namespace study {
 
-struct FieldOptions : Options {
+struct FieldOptions : FieldStudyOptions {
   std::vector<int> sizes;
   [[nodiscard]] std::uint64_t field_count() const { return fields.value_or(quick ? 2 : 20); }
   [[nodiscard]] std::vector<int> size_list() const {
@@ -351,7 +351,7 @@ int main(int argc, char** argv) {
   options.out = "out/studies/field";
   for (const study::MethodInfo& m : study::all_methods) options.methods.emplace_back(m.name);
   options.readings = {"reference", "thesis"};
-  study::add_study_options(app, options);
+  study::add_field_study_options(app, options);
   app.add_option("--sizes", options.sizes, "Finest cells along a side, separated by commas (default: 16,32,64)")
       ->delimiter(',')
       ->check(CLI::IsMember(std::vector<int>{8, 16, 32, 64, 128}))

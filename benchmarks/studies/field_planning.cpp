@@ -17,11 +17,11 @@
 #include <vantage/mission/plot.hpp>
 
 #include "field_methods.hpp"
+#include "field_options.hpp"
 #include "planning_claims.hpp"
 #include "planning_mission.hpp"
 #include "published_clock.hpp"
 #include "statistics.hpp"
-#include "study_options.hpp"
 #include "table.hpp"
 #include "units.hpp"
 
@@ -29,7 +29,7 @@ namespace study {
 
 constexpr double step_of_grid_s = 5;
 
-struct PlanningOptions : Options {
+struct PlanningOptions : FieldStudyOptions {
   std::vector<std::string> clocks = {"measured", "published"};
   std::optional<double> budget;
   [[nodiscard]] double budget_s() const { return budget.value_or(quick ? 100 : 300); }
@@ -211,7 +211,7 @@ std::vector<std::string> write_plots(const PlanningOptions& o, const std::vector
           for (std::size_t i = 0; i < grid.size(); ++i) {
             const Summary s = at_time(iou ? m.iou : m.rmse_hotspots, i);
             curve.y.push_back(s.mean);
-            curve.low.push_back(s.mean - s.deviation);
+            curve.low.push_back(std::max(0.0, s.mean - s.deviation));  // none of these is ever negative
             curve.high.push_back(s.mean + s.deviation);
           }
           plot.curves.push_back(std::move(curve));
@@ -319,7 +319,7 @@ int main(int argc, char** argv) {
   options.out = "out/studies/field_planning";
   for (const std::string_view name : study::planned_methods) options.methods.emplace_back(name);
   options.readings = {"reference", "thesis_quiet"};
-  study::add_study_options(app, options);
+  study::add_field_study_options(app, options);
   app.add_option("--clocks", options.clocks,
                  "measured: computing as it is here. published: as the published code takes")
       ->delimiter(',')

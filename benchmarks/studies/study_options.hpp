@@ -3,22 +3,19 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <vantage/mission/command_line.hpp>
 
-#include "field_methods.hpp"
 #include "units.hpp"
 
-// What the command lines of the field studies share.
+// What the command lines of all studies share.
 namespace study {
 
 struct Options {
   std::filesystem::path out;
-  std::vector<std::string> methods, readings;
-  std::optional<std::uint64_t> fields;
+  std::vector<std::string> methods;
   std::uint64_t seed = 7;
   int threads = 0;
   std::string shard;
@@ -35,21 +32,12 @@ inline void add_study_options(CLI::App& app, Options& o) {
       ->take_last()
       ->capture_default_str()
       ->type_name("DIR");
-  app.add_option("--fields", o.fields, "Random fields to average over")->check(CLI::Range(1, 1000000))->type_name("N");
   app.add_option("--methods", o.methods, "Methods, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(names))
       ->default_str(CLI::detail::join(names, ","))
       ->type_name("NAME,...");
-  std::string about_readings;
-  for (const std::string& r : all_readings())
-    about_readings += (about_readings.empty() ? "" : ". ") + r + ": " + about(r);
-  app.add_option("--noise", o.readings, about_readings)
-      ->delimiter(',')
-      ->check(CLI::IsMember(all_readings()))
-      ->default_str(CLI::detail::join(o.readings, ","))
-      ->type_name("NAME,...");
-  app.add_option("--seed", o.seed, "Seed of the fields and of the noise")
+  app.add_option("--seed", o.seed, "Seed of everything random")
       ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 62))
       ->capture_default_str()
       ->type_name("N");
@@ -68,7 +56,7 @@ inline void add_study_options(CLI::App& app, Options& o) {
 template <class Run, class Tables>
 void run_study(const Options& o, const std::vector<Unit>& units, std::ostream& log, Run&& run, Tables&& tables) {
   const Shard shard = o.shard.empty() ? Shard{} : Shard::parse(o.shard);
-  make_folder(o.out);
+  vantage::make_folder(o.out);
   const Units store(o.units());
   if (!o.merge) store.run(units, shard, log, run);
   if (o.shard.empty()) return tables(store);

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,7 +15,9 @@
 #include <vantage/core/error.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
+#include <vantage/loop/stop_rules.hpp>
 #include <vantage/mission/command_line.hpp>
+#include <vantage/sim/rgbd_camera.hpp>
 
 namespace scene {
 
@@ -20,8 +25,11 @@ using namespace vantage;
 
 inline const std::vector<MethodName>& methods() {
   static const std::vector<MethodName> list = {
+      {"fbe", "explores: frontiers of what is known, for most unexplored space in sight (6.2.2)"},
+      {"nbvp", "explores: a tree of views, the first of its best branch is flown (2.2.3)"},
+      {"information_gain", "explores: frontiers, for most expected information"},
       {"max_view_distance", "the view farthest from all that were taken"},
-      {"random", "any view"},
+      {"random", "any view; in a scene, of those that can be flown to"},
       {"in_order", "the views as they are listed: a recording as it was made"}};
   return list;
 }
@@ -36,20 +44,44 @@ struct Options : MissionOptions {
   double field_of_view_deg = 60;
   double range_m = 5;
   double depth_noise = 0.01;
-  double body_radius_m = 0.3;
+  double body_radius_m = 0.2;
   double voxel_m = 0.02;
   double threshold_m = 0.02;
+  double map_voxel_m = 0.05;
+  double speed_m_s = 1;
 
   Options() {
     out = "out/scene";
-    method = "max_view_distance";
-    measurements = 40;
+    method = "fbe";
   }
-  [[nodiscard]] Camera camera() const { return Camera::from_fov(pixels, pixels, deg(field_of_view_deg)); }
+  /// Objects and recordings are only looked at from given views.
+  [[nodiscard]] bool can_explore() const { return objects.empty() && recording.empty(); }
+  [[nodiscard]] bool explores() const {
+    return method == "fbe" || method == "nbvp" || method == "information_gain" || (method == "random" && can_explore());
+  }
+  [[nodiscard]] RgbdConfig sensor() const {
+    return {.camera = Camera::from_fov(pixels, pixels, deg(field_of_view_deg)),
+            .depth_noise = depth_noise,
+            .max_depth_m = range_m};
+  }
+  /// 15 minutes, unless told: an exploration at random never ends by itself.
+  [[nodiscard]] double most_time_s() const { return explores() && std::isinf(budget_s) ? 900 : budget_s; }
+  [[nodiscard]] std::optional<std::uint64_t> most_measurements() const {
+    if (measurements != std::numeric_limits<std::uint64_t>::max()) return measurements;
+    return explores() ? std::nullopt : std::optional<std::uint64_t>(40);
+  }
+  [[nodiscard]] AnyOf<MissionTime, Measurements, Travel> stop_rule() const {
+    const auto finite = [](double x) { return std::min(x, std::numeric_limits<double>::max()); };
+    return AnyOf{MissionTime{finite(most_time_s())}, Measurements{most_measurements().value_or(measurements)},
+                 Travel{finite(travel_m)}};
+  }
 };
 
 inline void add_options(CLI::App& app, Options& o) {
   add_mission_options(app, o, methods());
+  app.parse_complete_callback([&app, &o] {
+    if (app.count("--method") == 0 && !o.can_explore()) o.method = "max_view_distance";
+  });
   app.add_option("--scene", o.scene, "Where to look around: a folder with a scene.json, or a mesh (OBJ, glTF, PLY)")
       ->type_name("DIR|FILE");
   app.add_option("--object", o.objects, "What to look at: models that are put on a ground plane, at random poses")
@@ -77,6 +109,8 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--depth-noise", o.depth_noise, "Standard deviation of a depth, as a share of it", 0, 1, "SHARE");
   number("--body", o.body_radius_m, "Radius of the robot, which keeps so far from every surface", 0.01, 10, "METRES");
   number("--voxel", o.voxel_m, "Voxels of the reconstruction", 0.001, 1, "METRES");
+  number("--map-voxel", o.map_voxel_m, "Voxels of the map that an explorer flies by", 0.01, 1, "METRES");
+  number("--speed", o.speed_m_s, "How fast an explorer flies", 0.01, 100, "METRES/S");
   number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
 }
 
@@ -84,6 +118,8 @@ inline void add_options(CLI::App& app, Options& o) {
 inline void validate(const Options& o) {
   const int inputs = !o.scene.empty() + !o.objects.empty() + !o.recording.empty() + o.room.has_value();
   if (inputs > 1) throw Error("--scene, --object, --recording, --room", concat(inputs, " of them"), "one at most");
+  if (o.explores() && !o.can_explore())
+    throw Error("--method", concat(o.method, " flies through a scene"), "--scene or --room, or another method");
   if (o.resume) throw Error("--resume", "a look-around keeps no checkpoint", "a run from the start");
 }
 

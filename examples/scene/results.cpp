@@ -8,12 +8,10 @@
 #include <string>
 #include <utility>
 
-#include <vantage/concepts/channels.hpp>
-#include <vantage/io/write_glb.hpp>
-#include <vantage/io/write_ply.hpp>
 #include <vantage/mission/canvas.hpp>
 #include <vantage/mission/report.hpp>
-#include <vantage/sim/scene_renderer.hpp>
+
+#include "page.hpp"
 
 namespace scene {
 
@@ -61,15 +59,6 @@ Picture plan(const Input& input, const FusedMap& map, const MissionRecord& recor
   return canvas.picture();
 }
 
-/// What a camera would see of a mesh.
-Picture picture_of(const SceneRenderer& renderer, const View& view, const Camera& camera) {
-  Rendering<channel::Colour> seen;
-  renderer.render(view, camera, seen);
-  return to_picture(seen);
-}
-
-double tenths(double x) { return std::round(10 * x) / 10; }
-
 std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record) {
   const StepRecord& last = record.steps.back();
   const auto percent = [&](const char* metric) { return short_number(tenths(100 * last.metric(metric))); };
@@ -94,46 +83,27 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
 void write_results(const Options& o, const Input& input, const FusedMap& map, const Album& album,
                    const MissionRecord& record) {
   const TriangleMesh mesh = map.mesh();
-  Report report{.title = "A look around: " + input.name};
+  Page page{o, {.title = "A look around: " + input.name}};
+  Report& report = page.report;
   report.lead =
       concat("A camera", input.recording ? "'s recording" : "", " of ", input.name, ": ", record.steps.back().index,
              " views, method ", o.method, ", fused into a mesh of ", mesh.triangles.size(), " triangles. ", input.note,
              input.recording ? "" : " The way between two views is counted as a straight line.");
   report.figures = key_figures(o, record);
-  const auto add = [&](const std::string& file, std::string title, std::string caption, const Picture& picture) {
-    std::vector<std::byte> png = encode_png(picture);
-    write_file(o.out / file, png);
-    report.pictures.push_back({std::move(title), std::move(caption), std::move(png)});
-  };
-  add("plan.png", "From above",
-      map.truth() ? "Grey surface was seen, red was not; a dot is a view, its tick the way it looks, black the start."
-                  : "A dot is a view, its tick the way it looks, black the first.",
-      plan(input, map, record));
-  if (mesh.empty()) {
-    report.lead += " No surface came of it.";
-  } else {
-    write_file(o.out / "mesh.ply", encode_ply(mesh));
-    write_file(o.out / "mesh.glb", encode_glb(mesh));
-    Scene reconstructed{.mesh = mesh, .uv = {}, .material = {}, .label = {}, .textures = {}, .notes = {}};
-    reconstructed.materials[0].colour.setOnes();
-    const SceneRenderer renderer(reconstructed, {.lighting = Lighting::none()});
-    for (std::size_t i = 0; i < std::min<std::size_t>(3, album.strips().size()); ++i) {
-      const Album::Strip& s = album.strips()[i * (album.strips().size() - 1) / 2 % album.strips().size()];
-      add(concat("mesh_", s.index, ".png"), concat("The mesh from view ", s.index),
-          "What was reconstructed, as that camera would see it.", picture_of(renderer, s.view, s.camera));
-    }
-  }
-  for (const Album::Strip& s : album.strips())
-    add(concat("view_", s.index, ".png"), concat("View ", s.index),
-        "Colour, depth (bright is far) and class, as far as the sensor has them.", s.picture);
+  page.add("plan.png", "From above",
+           map.truth()
+               ? "Grey surface was seen, red was not; a dot is a view, its tick the way it looks, black the start."
+               : "A dot is a view, its tick the way it looks, black the first.",
+           plan(input, map, record));
+  page.add_mesh(mesh, album);
+  page.add_views(album);
   if (map.truth()) {
     report.plots.push_back(
         metric_plot(record, "Of the surface that can be seen", "share", {"coverage", "completeness", "precision"}));
     report.plots.back().y_least_top = 1;
     report.plots.push_back(metric_plot(record, "Mean distance of the mesh", "m", {"accuracy_m"}));
   }
-  for (const std::string& word : o.command) report.command += (report.command.empty() ? "" : " ") + word;
-  write_file(o.out / "report.html", report_html(report, record));
+  page.write(record);
 }
 
 }  // namespace scene

@@ -78,11 +78,16 @@ struct Covered {
   }
 };
 struct Choice {
-  std::array<Loop, n_maps * n_utilities> loops{};
+  std::array<Loop, n_maps * n_utilities + n_samplers*(n_utilities + n_selectors)> loops{};
   std::size_t count = 0;
   Covered covered{};
+  constexpr void add(const Loop& l) {
+    covered.add(l);
+    loops[count++] = l;
+  }
 };
-/// One loop for each map and utility that fit, with the sampler and the selector that bring most new pairs.
+/// One loop for each map and utility that fit, with the sampler and the selector that bring most new pairs; then one
+/// for each pair that is left.
 constexpr Choice choice = [] {
   Choice c;
   for (std::size_t m = 0; m < n_maps; ++m)
@@ -97,18 +102,35 @@ constexpr Choice choice = [] {
           if (const int news = c.covered.news(l); news > most) most = news, best = l;
         }
       if (most < 0) continue;
-      c.covered.add(best);
-      c.loops[c.count++] = best;
+      c.add(best);
     }
+  for (std::size_t m = 0; m < n_maps; ++m)
+    for (std::size_t s = 0; s < n_samplers; ++s)
+      for (std::size_t d = 0; d < n_selectors; ++d)
+        for (std::size_t u = 0; u < n_utilities; ++u)
+          if (sampler_fits[m][s] && selector_fits[m][d] && utility_fits[m][u])
+            if (const Loop l{m, u, s, d}; c.covered.news(l) > 0) c.add(l);
   return c;
 }();
 
+/// Measured before the steps, as some samplers go on from what is known; one view where the fixture does not say.
+template <class M>
+std::vector<View> first_views() {
+  if constexpr (requires { MapFixture<M>::first_views(); })
+    return MapFixture<M>::first_views();
+  else
+    return {MapFixture<M>::views().front()};
+}
 template <class M, class U, class Sa, class Se>
 MissionState three_steps() {
   NbvLoop loop{MapFixture<M>::make(), make<U>(), make<Sa>(), make<Se>()};
   typename MapFixture<M>::World world;
-  return loop.run(world, nadir(1, 1, 3), {}, Measurements(3), ModelledClock{}, Rng{7});
+  const std::vector<View> first = first_views<M>();
+  return loop.run(world, nadir(1, 1, 3), first, Measurements(first.size() + 3), ModelledClock{}, Rng{7});
 }
+/// Whoever looks for regions is done when there are none.
+template <class Sa>
+constexpr bool may_be_done_early = !needs_met<archetype::Navigable<>, Sa>;
 
 template <std::size_t K>
 void run_loop() {
@@ -125,7 +147,9 @@ void run_loop() {
     EXPECT_THROW((three_steps<M, U, Sa, Se>()), Error);
   } else {
     const MissionState end = three_steps<M, U, Sa, Se>();
-    EXPECT_EQ(end.visited.size(), 3u);
+    const std::size_t first = first_views<M>().size();
+    EXPECT_GT(end.visited.size(), first);
+    if (!may_be_done_early<Sa>) { EXPECT_EQ(end.visited.size(), first + 3); }
     EXPECT_GT(end.travelled_m, 0);
   }
 }

@@ -28,7 +28,7 @@ class SceneMission : public MissionProgram {
 std::string measuring(int times) {
   return " --pixels 96 --fov 90 --clock modelled --threshold 0.05 --measurements " + std::to_string(times);
 }
-const std::string quick = measuring(5) + " --voxel 0.05";
+const std::string quick = measuring(5) + " --voxel 0.05 --method max_view_distance";
 
 TEST_F(SceneMission, LeavesWhatItPromises) {
   const Ended e = run("--room 1" + quick + out("a"));
@@ -78,7 +78,7 @@ TEST_F(SceneMission, ItsViewsAreARecordingThatReplays) {
   EXPECT_FALSE(frame.colour.empty());
   EXPECT_GT(frame.labels.maxCoeff(), 0);
 
-  const Ended e = run("--recording '" + views.string() + "' --method in_order" + quick + out("b"));
+  const Ended e = run("--recording '" + views.string() + "' --method in_order --voxel 0.05" + measuring(5) + out("b"));
   ASSERT_EQ(e.code, 0) << e.err;
   const auto before = mission("a")["steps"], after = mission("b")["steps"];
   ASSERT_EQ(after.size(), 5u);

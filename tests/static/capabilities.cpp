@@ -19,21 +19,23 @@ namespace {
 using need::Coverage, need::Depth, need::Field, need::Fisher, need::Forecast, need::Navigable, need::Occupancy,
     need::Uncertainty, need::Voxels;
 using Frontier = need::Regions<frontier>;
+using Entropy = need::Channels<channel::Entropy>;
+using Gain = need::Channels<channel::InformationGain>;
 using LowConfidence = need::Regions<low_confidence>;
 
 template <class M, class... Ns>
 constexpr int offered = (0 + ... + offers<M, Ns>);
 /// Offers all of Ns, and nothing else of what there is to offer.
 template <class M, class... Ns>
-constexpr bool offers_just =
-    Map<M>&& offered<M, Ns...> == sizeof...(Ns) && offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy,
-                                                           Voxels, Navigable, Frontier, LowConfidence, Fisher> ==
-                                                       sizeof...(Ns);
+constexpr bool offers_just = Map<M>&& offered<M, Ns...> == sizeof...(Ns) &&
+                             offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels, Navigable,
+                                     Frontier, LowConfidence, Fisher, Entropy, Gain> == sizeof...(Ns);
 
 // Archetypes: each adds one capability to a plain map.
 static_assert(offers_just<archetype::Map>);
 static_assert(offers_just<archetype::Uncertain<>, Uncertainty>);
 static_assert(offers_just<archetype::Ranging<>, Uncertainty, Depth>);
+static_assert(offers_just<archetype::Informative<>, Uncertainty, Entropy, Gain>);
 static_assert(offers_just<archetype::Forecasting<>, Forecast>);
 static_assert(offers_just<archetype::Forecasting<archetype::Uncertain<>>, Forecast, Uncertainty>);
 static_assert(offers_just<archetype::Covering<>, Coverage>);
@@ -44,7 +46,7 @@ static_assert(offers_just<archetype::Frontiers<>, Occupancy, Frontier>);
 static_assert(offers_just<archetype::Field<>, Field>);
 static_assert(offers_just<archetype::Fisher<>, Fisher>);
 static_assert(offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels,
-                          Navigable, Frontier, Fisher>);
+                          Navigable, Frontier, Fisher, Entropy, Gain>);
 static_assert(RefinableMap<archetype::Refinable<>> && !RefinableMap<archetype::Map>);
 static_assert(Persistent<archetype::Persistent<>> && !Persistent<archetype::Map>);
 
@@ -64,11 +66,13 @@ static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Me
 static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Fixed<>>>);
 static_assert(Posed<IntegralGp<>::Measurement> && Posed<archetype::Map::Measurement>);
 
-// Voxel maps, whatever their policies.
+// Voxels: Depth, Uncertainty, Entropy and InformationGain in any combination; occupancy to the last voxel.
 template <class M>
-constexpr bool voxel_map = offers_just<M, Occupancy, Voxels, Navigable, Frontier, Coverage>&& Persistent<M>;
-static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>);
-static_assert(voxel_map<VoxelMap<RayCast, ClassCounts<5>>>);
+constexpr bool voxel_map =
+    offers_just<M, Uncertainty, Depth, Coverage, Occupancy, Voxels, Navigable, Frontier, Entropy, Gain>&& Persistent<M>;
+static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, ClassCounts<5>, NoOccupiedCentreInBall>>);
+static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
+              !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
 static_assert(ForetellsRefusal<VoxelMap<>> && Posed<VoxelMap<>::Measurement>);
 
 // What is no map: each lacks one thing.
@@ -114,6 +118,8 @@ struct RendersColour : archetype::Map {
 };
 static_assert(!UncertainMap<RendersOnce> && !UncertainMap<RendersColour>);
 static_assert(Renders<RendersColour, channel::Colour> && !Renders<RendersColour, channel::Depth>);
+static_assert(offers<RendersColour, need::Channels<channel::Colour>> &&
+              !offers<RendersColour, need::Channels<channel::Colour, channel::Depth>>);
 
 // Needs of policies made of others are the needs of all.
 struct NeedsTwo {

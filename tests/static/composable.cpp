@@ -7,6 +7,7 @@
 
 #include <vantage/concepts/explain.hpp>
 #include <vantage/loop/nbv_loop.hpp>
+#include <vantage/sampler/view_tree.hpp>
 
 #include "../contract/maps.hpp"
 #include "../contract/policies.hpp"
@@ -44,6 +45,10 @@ static_assert(!plans<archetype::Map, MeanUncertainty> && !plans<archetype::Map, 
 static_assert(plans<archetype::Uncertain<>, MeanUncertainty> && !plans<archetype::Uncertain<>, VarianceReduction>);
 static_assert(plans<archetype::Forecasting<>, VarianceReduction> && !plans<archetype::Forecasting<>, MeanUncertainty>);
 static_assert(plans<OursMap, MeanUncertainty> && plans<OursMap, VarianceReduction> && plans<OursMap, Uninformed>);
+static_assert(plans<archetype::Informative<>, RayEntropy> && plans<archetype::Informative<>, InformationGain>);
+static_assert(!plans<archetype::Uncertain<>, RayEntropy> && !plans<archetype::Uncertain<>, InformationGain>);
+static_assert(plans<archetype::Occupied<archetype::Ranging<>>, Unexplored> && plans<archetype::FullMap, Unexplored> &&
+              !plans<archetype::Occupied<>, Unexplored> && !plans<archetype::Ranging<>, Unexplored>);
 static_assert(plans<CarryMap, MeanUncertainty> && plans<CarryMap, VarianceReduction>);
 
 // A policy whose own form is wrong composes with nothing, and does not break the question.
@@ -96,6 +101,14 @@ static_assert(WorldFor<archetype::World, archetype::Map> && !WorldFor<archetype:
               WorldFor<WavyWorld, OursMap>);
 static_assert(RouterFor<StraightLine, archetype::Map> && RouterFor<archetype::Router, OursMap> &&
               !RouterFor<NoRouter, archetype::Map>);
+
+static_assert(RouterFor<AStar, archetype::Navigable<>> && RouterFor<Shortcut<AStar>, archetype::FullMap> &&
+              !RouterFor<AStar, archetype::Voxelled<>> && !RouterFor<Shortcut<AStar>, archetype::Map>);
+static_assert(Composable<archetype::Navigable<>, Uninformed, Lattice, TravelTradeoff<AStar>> &&
+              !Composable<archetype::Occupied<>, Uninformed, Lattice, TravelTradeoff<AStar>> &&
+              !Composable<OursMap, Uninformed, Lattice, MinusCost<Shortcut<AStar>>>);
+static_assert(Composable<archetype::Navigable<>, Uninformed, ViewTree, FirstOfBranch> &&
+              !Composable<archetype::Voxelled<>, Uninformed, ViewTree, FirstOfBranch>);
 
 // The loop deduces its four policies.
 static_assert(std::is_same_v<decltype(NbvLoop{archetype::Map{}, Uninformed{}, Spiral{}, MinusCost{}}),

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -88,6 +89,22 @@ class Ranging : public Base {
   }
 };
 
+/// Draws entropy and expected information gain beside what else it draws: a coin for each look that is missing.
+template <class Base = Uncertain<>>
+class Informative : public Base {
+ public:
+  using Base::render;
+  void render(const View& view, const Camera& camera, Rendering<channel::Entropy>& out) const {
+    const double doubt = this->doubt(this->side(view.position()));
+    out.entropy.setConstant(camera.height, camera.width, static_cast<float>(std::numbers::ln2 * doubt));
+  }
+  void render(const View& view, const Camera& camera, Rendering<channel::InformationGain>& out) const {
+    const auto n = static_cast<double>(this->looks(this->side(view.position())));
+    const double gain = std::numbers::ln2 * (1 / (1 + n) - 1 / (2 + n));
+    out.information_gain.setConstant(camera.height, camera.width, static_cast<float>(gain));
+  }
+};
+
 /// ForecastMap: what one more look would take from the doubt about its side, were the given looks taken before.
 template <class Base = Map>
 class Forecasting : public Base {
@@ -155,14 +172,15 @@ class Navigable : public Base {
   [[nodiscard]] VoxelBits navigable_in(const Eigen::Vector3i& block) const { return this->free_in(block); }
 };
 
-/// RegionMap: the middle of each side that was not seen yet, and the direction from which to see it.
+/// RegionMap: while only one side was seen, the place where it ends, to be looked at from within.
 template <class Base = Occupied<>>
 class Frontiers : public Base {
  public:
   [[nodiscard]] std::vector<Region> regions(frontier) const {
     std::vector<Region> found;
-    for (const double x : {-0.5, 0.5})
-      if (this->looks(this->side({x, 0, 0})) == 0) found.push_back({{x, 0, 0}, Eigen::Vector3d::UnitZ()});
+    for (const double x : {-0.125, 0.125})
+      if (this->looks(this->side({x, 0, 0})) > 0 && this->looks(this->side({-x, 0, 0})) == 0)
+        found.push_back({{x, 0.125, 0.125}, {x < 0 ? -1.0 : 1.0, 0, 0}});
     return found;
   }
 };
@@ -203,8 +221,8 @@ class Refinable : public Base {
 };
 
 /// A map with all of it, in the order in which the layers are put on.
-using FullMap = Persistent<
-    Refinable<Fisher<Field<Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Ranging<Uncertain<>>>>>>>>>>>>;
+using FullMap = Persistent<Refinable<
+    Fisher<Field<Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Informative<Ranging<Uncertain<>>>>>>>>>>>>>;
 
 /// ViewUtility: psi(M, v). Here: views from the right are better, the higher the better.
 struct ViewUtility {

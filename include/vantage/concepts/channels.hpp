@@ -28,6 +28,9 @@ struct Confidence {
 struct Entropy {
   Image<float> entropy;
 };  ///< [nats]
+struct InformationGain {
+  Image<float> information_gain;
+};  ///< how much entropy of the map a measurement along the ray is expected to take away [nats]
 struct Semantics {
   std::vector<Image<float>> probability;
 };  ///< one image a class

@@ -23,6 +23,8 @@ struct Navigable;
 struct Fisher;
 template <class Kind>
 struct Regions;  ///< frontier or low_confidence
+template <class... Cs>
+struct Channels;  ///< drawn together, by one call
 }  // namespace need
 
 /// A policy's statement of what it asks of a map: `using MapNeeds = Needs<need::Uncertainty>;`
@@ -76,6 +78,13 @@ template <class M>
 inline constexpr bool offers<M, need::Fisher> = FisherMap<M>;
 template <class M, class Kind>
 inline constexpr bool offers<M, need::Regions<Kind>> = RegionMap<M, Kind>;
+template <class M, class... Cs>
+inline constexpr bool offers<M, need::Channels<Cs...>> = Renders<M, Cs...>;
+
+template <class N>
+inline constexpr bool is_channels = false;
+template <class... Cs>
+inline constexpr bool is_channels<need::Channels<Cs...>> = true;
 
 /// The Map concept piece by piece, so that a refusal says which piece is missing.
 template <class M>
@@ -155,6 +164,11 @@ struct Explain {
           offers<M, N>,
           "vantage: this policy needs a RegionMap: give the map `std::vector<Region> regions(Kind) const` for this "
           "kind (frontier or low_confidence) and `Space at(const Eigen::Vector3d&) const`, or pair it with a VoxelMap");
+    else if constexpr (is_channels<N>)
+      static_assert(
+          offers<M, N>,
+          "vantage: this policy needs a map that draws the channels of this need::Channels<...>: give the map "
+          "`void render(const View&, const Camera&, Rendering<...>&) const` for them");
     else
       static_assert(offers<M, N>,
                     "vantage: this policy needs what the map does not offer: specialise vantage::offers<Map, Need> "

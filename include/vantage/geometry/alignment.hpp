@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <utility>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <vantage/core/error.hpp>
 #include <vantage/core/parallel.hpp>
+#include <vantage/core/symmetric_eigen.hpp>
 #include <vantage/geometry/depth_surface.hpp>
 #include <vantage/geometry/view.hpp>
 
@@ -32,12 +32,11 @@ struct AlignmentConfig {
 
 /// How a depth image was aligned.
 struct Alignment {
-  View view;              ///< from where it was taken
-  std::size_t pairs = 0;  ///< points that found a partner
-  double overlap = 0;     ///< their share of all points
-  double rms_m = 0;       ///< of their distances along the normal
-  double conditioning =
-      0;  ///< smallest over largest eigenvalue of the normal equations, turns counted at the surface's size
+  View view;                ///< from where it was taken
+  std::size_t pairs = 0;    ///< points that found a partner
+  double overlap = 0;       ///< their share of all points
+  double rms_m = 0;         ///< of their distances along the normal
+  double conditioning = 0;  ///< smallest over largest eigenvalue of the normal equations, turns at the surface's size
   int iterations = 0;
 };
 
@@ -88,7 +87,8 @@ inline NormalEquations linearise(const DepthSurface& source, const DepthSurface&
         const double weight = std::min(1.0, config.huber_m / std::max(std::abs(residual), 1e-300));
         Eigen::Matrix<double, 6, 1> J;
         J << (p - centre).cross(n) / size_m, n;
-        sum.A.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
+        for (int a = 0; a < 6; ++a)
+          for (int b = 0; b <= a; ++b) sum.A(a, b) += weight * J[a] * J[b];  // only the lower triangle
         sum.b += weight * residual * J;
         sum.squares += residual * residual;
         ++sum.pairs;
@@ -141,7 +141,7 @@ inline std::optional<Alignment> align(const DepthSurface& source, const DepthSur
   check.done();
 
   Alignment result;
-  Eigen::Isometry3d T = model.view().T_W_C.inverse() * source.view().T_W_C;
+  Eigen::Isometry3d T = model.view().T_C_W() * source.view().T_W_C;
   const auto [source_centre, size_m] = detail::centre_and_size(source);
   if (!(size_m > 0)) return std::nullopt;
   bool at_rest = false;
@@ -157,17 +157,17 @@ inline std::optional<Alignment> align(const DepthSurface& source, const DepthSur
       result.overlap = e.points == 0 ? 0 : pairs / static_cast<double>(e.points);
       if (e.pairs < 6 || result.overlap < config.least_overlap) return std::nullopt;
       result.rms_m = std::sqrt(e.squares / pairs);
-      const Eigen::Matrix<double, 6, 6> A = e.A.selfadjointView<Eigen::Lower>();
-      const Eigen::Matrix<double, 6, 1> eigenvalues =
-          Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>>(A, Eigen::EigenvaluesOnly).eigenvalues();
-      result.conditioning = std::max(0.0, eigenvalues[0]) / eigenvalues[5];
-      if (!(result.conditioning >= config.least_conditioning) || !(eigenvalues[0] > 0)) return std::nullopt;
+      const SymmetricEigen<6> eigen(e.A);
+      result.conditioning = std::max(0.0, eigen.smallest()) / eigen.largest();
+      if (!(result.conditioning >= config.least_conditioning) || !(eigen.smallest() > 0)) return std::nullopt;
 
-      const Eigen::Matrix<double, 6, 1> xi = -A.ldlt().solve(e.b);
+      const Eigen::Matrix<double, 6, 1> xi = -eigen.solve(e.b);
       const Eigen::Vector3d turn = xi.head<3>() / size_m;
       if (!xi.allFinite()) return std::nullopt;
       const Eigen::AngleAxisd rotation(turn.norm(), turn.norm() > 0 ? turn.normalized() : Eigen::Vector3d::UnitX());
-      T = Eigen::Translation3d(centre + xi.tail<3>()) * rotation * Eigen::Translation3d(-centre) * T;
+      const Eigen::Matrix3d R = rotation.toRotationMatrix();
+      T.translation() = R * (T.translation() - centre) + centre + xi.tail<3>();
+      T.linear() = R * T.linear();
       ++result.iterations;
       at_rest = xi.norm() < config.least_step_m;
     }

@@ -51,15 +51,15 @@ class ScalarGrid {
              std::vector<float> values)
       : size_(size), origin_(origin), spacing_m_(spacing_m), values_(std::move(values)) {
     Check check("ScalarGrid");
-    check((size.array() >= 2).all() && (size.array() <= 1 << 20).all(), "size", concat(size.transpose()),
+    check(size.minCoeff() >= 2 && size.maxCoeff() <= 1 << 20, "size", concat(size.transpose()),
           "2 to 2^20 samples each");
     check(origin.allFinite(), "origin", concat(origin.transpose()), "finite");
-    check(spacing_m.allFinite() && (spacing_m.array() > 0).all(), "spacing_m", concat(spacing_m.transpose()),
+    check(spacing_m.allFinite() && spacing_m.minCoeff() > 0, "spacing_m", concat(spacing_m.transpose()),
           "finite and > 0");
     check.done();
     if (size.cast<double>().prod() != static_cast<double>(values_.size()))
       throw Error("ScalarGrid", concat(values_.size(), " values"), concat("one for each of ", size.transpose()));
-    bricks_ = (size.array() + brick_edge - 1) / brick_edge;
+    for (int axis = 0; axis < 3; ++axis) bricks_[axis] = (size[axis] + brick_edge - 1) / brick_edge;
   }
 
   [[nodiscard]] const Eigen::Vector3i& size() const { return size_; }
@@ -76,7 +76,8 @@ class ScalarGrid {
     return {static_cast<int>(brick % nx), static_cast<int>(brick / nx % ny), static_cast<int>(brick / nx / ny)};
   }
   [[nodiscard]] std::ptrdiff_t brick_at(const Eigen::Vector3i& corner) const {
-    if ((corner.array() < 0).any() || (corner.array() >= bricks_.array()).any()) return -1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (corner[axis] < 0 || corner[axis] >= bricks_[axis]) return -1;
     return (static_cast<std::ptrdiff_t>(corner.z()) * bricks_.y() + corner.y()) * bricks_.x() + corner.x();
   }
   void load(std::size_t brick, std::span<float, brick_samples> out) const {
@@ -96,7 +97,8 @@ class ScalarGrid {
   [[nodiscard]] float value(std::size_t brick, std::size_t sample) const {
     const auto s = static_cast<int>(sample);
     const Eigen::Vector3i at = corner(brick) * brick_edge + Eigen::Vector3i(s & 7, s >> 3 & 7, s >> 6);
-    return (at.array() < size_.array()).all() ? values_[index(at)] : std::numeric_limits<float>::quiet_NaN();
+    const bool within = at.x() < size_.x() && at.y() < size_.y() && at.z() < size_.z();
+    return within ? values_[index(at)] : std::numeric_limits<float>::quiet_NaN();
   }
 
  private:

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <cmath>
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include <vantage/core/error.hpp>
@@ -42,15 +43,20 @@ inline void Frame::validate(std::string_view where) const {
   sized(labels, "labels");
   if (colour.r.size() != colour.g.size() || colour.r.size() != colour.b.size())
     throw Error(where, "a colour plane is missing", "all of red, green and blue, or none");
-  const auto refuse = [&](std::string_view what, float value, Eigen::Index k, std::string_view expected) {
-    throw Error(where, concat(what, " ", value, " at row ", k / camera.width, ", column ", k % camera.width), expected);
+  // Whether any is bad, without a branch, so that it is vectorised; where, only if one is. NaN fails a comparison.
+  const auto each = [&](const Image<float>& image, std::string_view what, std::string_view expected, auto&& good) {
+    int bad = 0;
+    for (Eigen::Index k = 0; k < image.size(); ++k) bad |= good(image.data()[k]) ? 0 : 1;
+    if (bad == 0) return;
+    const float* const value = std::find_if_not(image.data(), image.data() + image.size(), good);
+    const Eigen::Index k = value - image.data();
+    throw Error(where, concat(what, " ", *value, " at row ", k / camera.width, ", column ", k % camera.width),
+                expected);
   };
   for (const Image<float>* plane : {&colour.r, &colour.g, &colour.b})
-    for (Eigen::Index k = 0; k < plane->size(); ++k)
-      if (!(plane->data()[k] >= 0 && plane->data()[k] <= 1)) refuse("colour", plane->data()[k], k, "in [0, 1]");
-  for (Eigen::Index k = 0; k < depth.size(); ++k)
-    if (const float d = depth.data()[k]; !std::isnan(d) && !(d > 0 && std::isfinite(d)))
-      refuse("depth", d, k, "finite and > 0 m, or NaN = no value");
+    each(*plane, "colour", "in [0, 1]", [](float c) { return (c >= 0) & (c <= 1); });
+  each(depth, "depth", "finite and > 0 m, or NaN = no value",
+       [](float d) { return (d != d) | ((d > 0) & (d <= std::numeric_limits<float>::max())); });
 }
 
 }  // namespace vantage

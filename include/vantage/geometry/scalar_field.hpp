@@ -46,7 +46,7 @@ class ScalarField {
   /// or if all are masked. O(pixels).
   ScalarField(const Box2& area_m, Image<double> values, Quantity quantity = {})
       : area_(area_m), values_(std::move(values)), quantity_(std::move(quantity)) {
-    if (!(area_.min().allFinite() && area_.max().allFinite() && (area_.sizes().array() > 0).all()))
+    if (!is_proper(area_))
       throw Error("ScalarField", "the area is empty or not finite", "a rectangle with sides > 0 m");
     constexpr Eigen::Index most = Eigen::Index{1} << 28;
     if (values_.size() == 0 || values_.size() > most)
@@ -96,7 +96,7 @@ class ScalarField {
   /// masked and outer parts do not count; NaN if nothing is left. O(pixels touched).
   [[nodiscard]] double average(const Box2& rectangle_m) const {
     const Box2 box = rectangle_m.intersection(area_);
-    if (box.isEmpty() || !(box.sizes().array() > 0).all()) return std::numeric_limits<double>::quiet_NaN();
+    if (!is_proper(box)) return std::numeric_limits<double>::quiet_NaN();
     const Eigen::Vector2d low = (box.min() - area_.min()).cwiseQuotient(pixel_m_);
     const Eigen::Vector2d high = (box.max() - area_.min()).cwiseQuotient(pixel_m_);
     const auto overlap = [](double a, double b, Eigen::Index i) {

@@ -74,7 +74,7 @@ struct Scene {
                         "finite numbers");
     }
     for (const Material& m : materials) {
-      if (!(m.colour.array() >= 0).all() || !(m.colour.array() <= 1).all())
+      if (m.colour.hasNaN() || m.colour.minCoeff() < 0 || m.colour.maxCoeff() > 1)
         throw Error(where, concat("material '", m.name, "' has colour (", m.colour.transpose(), ")"), "in [0, 1]");
       if (m.texture && *m.texture >= textures.size())
         throw Error(where, concat("material '", m.name, "' has texture ", *m.texture),

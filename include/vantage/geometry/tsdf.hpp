@@ -63,20 +63,23 @@ class Tsdf {
   explicit Tsdf(const Config& config) : config_(config) {
     Check check("Tsdf::Config");
     const Box3& box = config.bounds;
-    const bool finite = box.min().allFinite() && box.max().allFinite() && (box.sizes().array() > 0).all();
-    check(finite, "bounds", concat("(", box.min().transpose(), ") to (", box.max().transpose(), ")"),
+    check(is_proper(box), "bounds", concat("(", box.min().transpose(), ") to (", box.max().transpose(), ")"),
           "finite, not empty");
     check.positive("voxel_m", config.voxel_m);
     check(std::isfinite(config.truncation_m) && config.truncation_m >= config.voxel_m, "truncation_m",
           config.truncation_m, "finite and >= voxel_m");
     check.done();
-    const Eigen::Array3d n = (box.sizes().array() / brick_m() - 1e-9).ceil().max(1);
-    const double entries = (n + 2).prod();  // with a border, see touched_bricks
+    double bricks = 1, entries = 1;  // the latter with a border, see touched_bricks
+    for (int axis = 0; axis < 3; ++axis) {
+      const double n = std::max(1.0, std::ceil((box.max()[axis] - box.min()[axis]) / brick_m() - 1e-9));
+      bricks *= n;
+      entries *= n + 2;
+      size_[axis] = n < 0x1p30 ? static_cast<int>(n) : 0;  // too many are refused below
+    }
     if (!(entries < 0x1p31) || entries * sizeof(std::int32_t) > static_cast<double>(config.max_bytes))
-      throw Error("Tsdf", concat("the bounds hold ", n.prod(), " bricks of 8^3 voxels of ", config.voxel_m, " m"),
+      throw Error("Tsdf", concat("the bounds hold ", bricks, " bricks of 8^3 voxels of ", config.voxel_m, " m"),
                   concat("fewer than 2^31, and 4 bytes for each in ", config.max_bytes, " bytes"));
-    size_ = n.cast<int>();
-    directory_.assign(static_cast<std::size_t>(n.prod()), -1);
+    directory_.assign(static_cast<std::size_t>(bricks), -1);
   }
 
   /// Folds a frame in. Throws Error, and changes nothing, for a bad frame, one without depth (or colour, if that is
@@ -96,7 +99,7 @@ class Tsdf {
   }
   /// Voxel (i, j, k); none if no frame saw it.
   [[nodiscard]] std::optional<Voxel> at(const Eigen::Vector3i& voxel) const {
-    const Eigen::Vector3i corner = voxel.unaryExpr([](int i) { return i >> 3; });
+    const Eigen::Vector3i corner(voxel.x() >> 3, voxel.y() >> 3, voxel.z() >> 3);
     const std::ptrdiff_t b = brick_at(corner);
     if (b < 0) return std::nullopt;
     const Eigen::Vector3i in = voxel - brick_edge * corner;
@@ -112,7 +115,8 @@ class Tsdf {
   [[nodiscard]] std::size_t bricks() const { return corners_.size(); }
   [[nodiscard]] Eigen::Vector3i corner(std::size_t brick) const { return corners_[brick]; }
   [[nodiscard]] std::ptrdiff_t brick_at(const Eigen::Vector3i& corner) const {
-    if ((corner.array() < 0).any() || (corner.array() >= size_.array()).any()) return -1;
+    for (int axis = 0; axis < 3; ++axis)
+      if (corner[axis] < 0 || corner[axis] >= size_[axis]) return -1;
     return directory_[slot(corner)];
   }
   void load(std::size_t brick, std::span<float, brick_samples> values) const {
@@ -175,8 +179,8 @@ inline std::vector<Eigen::Vector3i> Tsdf::touched_bricks(const Frame& frame) con
   const Eigen::Matrix3d R = frame.view.T_W_C.linear() / brick_m();
   const Eigen::Vector3f eye =
       ((frame.view.position() - config_.bounds.min()) / brick_m() + Eigen::Vector3d::Ones()).cast<float>();
-  const Eigen::Vector3i border = size_.array() + 2;
-  const Eigen::Vector3f last = (border.array() - 1).cast<float>();
+  const Eigen::Vector3i border(size_.x() + 2, size_.y() + 2, size_.z() + 2);
+  const Eigen::Vector3f last = (border - Eigen::Vector3i::Ones()).cast<float>();
 
   std::vector<std::uint64_t> marks((directory_.size() + 63) / 64);
   const auto mark = [&](int from, int to) {
@@ -257,13 +261,15 @@ struct Tsdf::Projection {
   Projection(const Config& config, const Frame& f)
       : frame(f),
         truncation(static_cast<float>(config.truncation_m)),
-        T_C_W(f.view.T_W_C.inverse()),
+        T_C_W(f.view.T_C_W()),
         origin(config.bounds.min() + Eigen::Vector3d::Constant(config.voxel_m / 2)),
         voxel_m(config.voxel_m),
         step_z((T_C_W.linear().col(2) * voxel_m).cast<float>()),
         colour(config.colour) {
+    const Eigen::Vector3d step_x = T_C_W.linear().col(0) * voxel_m, step_y = T_C_W.linear().col(1) * voxel_m;
     for (int i = 0; i < 64; ++i)
-      offset.col(i) = (T_C_W.linear() * Eigen::Vector3d(i & 7, i >> 3, 0) * voxel_m).cast<float>();
+      for (int axis = 0; axis < 3; ++axis)
+        offset(axis, i) = static_cast<float>((i & 7) * step_x[axis] + (i >> 3) * step_y[axis]);
   }
   const Frame& frame;
   float truncation;

@@ -16,6 +16,17 @@ struct View {
 
   [[nodiscard]] Eigen::Vector3d position() const { return T_W_C.translation(); }
   [[nodiscard]] Eigen::Vector3d forward() const { return T_W_C.linear().col(2); }
+  /// World points to camera points; for a rigid pose. Coefficient by coefficient, since Transform::inverse makes every
+  /// includer compile Eigen's general inverses.
+  [[nodiscard]] Eigen::Isometry3d T_C_W() const {
+    Eigen::Isometry3d inverse = Eigen::Isometry3d::Identity();
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        inverse(i, j) = T_W_C(j, i);
+        inverse(i, 3) -= T_W_C(j, i) * T_W_C(j, 3);
+      }
+    return inverse;
+  }
 };
 
 using Views = std::span<const View>;
@@ -51,8 +62,9 @@ inline bool same_place(const View& a, const View& b) { return distance_m(a, b) <
 /// Throws Error unless the pose is finite and its linear part a rotation (to 1e-6).
 inline void check_view(const View& view, std::string_view where) {
   if (!view.T_W_C.matrix().allFinite()) throw Error(where, "the view's pose is not finite", "finite coefficients");
-  const Eigen::Matrix3d r = view.T_W_C.linear();
-  if (!(r.transpose() * r).isIdentity(1e-6) || r.determinant() < 0)
+  const Eigen::Vector3d x = view.T_W_C.linear().col(0), y = view.T_W_C.linear().col(1), z = view.forward();
+  const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= 1e-6; };
+  if (!unit(x) || !unit(y) || !unit(z) || (x.cross(y) - z).norm() > 1e-6)
     throw Error(where, "the view's pose is no rigid transform", "a rotation with determinant 1");
 }
 

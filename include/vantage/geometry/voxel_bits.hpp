@@ -34,6 +34,18 @@ struct alignas(64) VoxelBits {
       bits.slice[z] = n.y() >= 8 ? rows : rows & ((std::uint64_t{1} << 8 * n.y()) - 1);
     return bits;
   }
+  /// Those from one voxel of a block to another, both included; both may lie outside of the block.
+  static VoxelBits between(const Eigen::Vector3i& low, const Eigen::Vector3i& high) {
+    const Eigen::Array3i a = low.array().max(0), b = high.array().min(block_edge - 1);
+    VoxelBits bits;
+    if ((a > b).any()) return bits;
+    const auto run = [](int first, int last) { return (std::uint64_t{2} << last) - (std::uint64_t{1} << first); };
+    const std::uint64_t row = run(a.x(), b.x());
+    std::uint64_t rows = 0;
+    for (int y = a.y(); y <= b.y(); ++y) rows |= row << 8 * y;
+    for (int z = a.z(); z <= b.z(); ++z) bits.slice[static_cast<std::size_t>(z)] = rows;
+    return bits;
+  }
 
   /// `local`: the voxel within its block, each of 0 to 7.
   [[nodiscard]] constexpr bool operator[](std::size_t local) const { return (slice[local >> 6] >> (local & 63)) & 1; }
@@ -54,6 +66,15 @@ struct alignas(64) VoxelBits {
   constexpr void for_each(F&& f) const {
     for (std::size_t z = 0; z < 8; ++z)
       for (std::uint64_t s = slice[z]; s != 0; s &= s - 1) f(64 * z + static_cast<std::size_t>(std::countr_zero(s)));
+  }
+
+  /// Whether f(local) holds for any voxel that is set; it is asked of no more after that.
+  template <class F>
+  [[nodiscard]] constexpr bool any_of(F&& f) const {
+    for (std::size_t z = 0; z < 8; ++z)
+      for (std::uint64_t s = slice[z]; s != 0; s &= s - 1)
+        if (f(64 * z + static_cast<std::size_t>(std::countr_zero(s)))) return true;
+    return false;
   }
 
   constexpr VoxelBits& operator&=(const VoxelBits& other) {

@@ -24,16 +24,18 @@
 
 // What a scene.json (or object.json) says. Everything may be left out; keys that are not listed do not count.
 //
+// clang-format off
 //     {
-//       "mesh": "room.obj",                a mesh beside it; else scene.obj or model.obj if there is one
-//       "up": "z",                         or "y": which axis of that mesh points up (not of glTF, which says so
-//       itself) "class": "car",                    of all of the mesh that has no other "instances": [{"id": "chair_3",
-//       "class": "chair"}, ...],       classes of the mesh's parts, by their names "classes": ["chair", "floor", ...]
-//       or {"chair": 2, ...},       if given, there are no others "room": {"min": [x, y, z], "max": [x, y, z],
-//       "colour": [r, g, b]},   seen from inside: floor, ceiling, wall "boxes": [{"min": [x, y, z], "max": [x, y, z],
-//       "class": "table", "colour": [r, g, b]}, ...], "start": {"position": [x, y, z], "yaw": 0, "pitch": 0}         or
-//       "start_pose"; [rad], yaw 0 looks along x
+//       "mesh": "room.obj",           a mesh beside it; else scene.obj or model.obj if there is one
+//       "up": "z",                    or "y": which axis of that mesh points up (not of glTF, which says so itself)
+//       "class": "car",               of all of the mesh that has no other
+//       "instances": [{"id": "chair_3", "class": "chair"}, ...],   classes of the mesh's parts, by their names
+//       "classes": ["chair", "floor", ...],                        or {"chair": 2, ...}; if given, there are no others
+//       "room": {"min": [x, y, z], "max": [x, y, z], "colour": [r, g, b]},   seen from inside: floor, ceiling, wall
+//       "boxes": [{"min": [x, y, z], "max": [x, y, z], "class": "table", "colour": [r, g, b]}, ...],
+//       "start": {"position": [x, y, z], "yaw": 0, "pitch": 0}     or "start_pose"; [rad], yaw 0 looks along x
 //     }
+// clang-format on
 //
 // Metres, z up, colours in [0, 1].
 namespace vantage {

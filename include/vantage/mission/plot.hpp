@@ -35,17 +35,18 @@ struct Plot {
 };
 
 /// The style of every plot: up to eight colours that the colour-blind can tell apart (Okabe and Ito), and black on
-/// white or white on black as the reader prefers.
+/// white or white on black as the reader prefers. Without variables, which only browsers know.
 inline constexpr std::string_view plot_css =
-    R"(.plot{font:12px system-ui,sans-serif;--ink:#1d2329;--soft:#6a737d;--line:#d9dee3}
-.plot .c0{--c:#0072b2}.plot .c1{--c:#d55e00}.plot .c2{--c:#009e73}.plot .c3{--c:#cc79a7}
-.plot .c4{--c:#e69f00}.plot .c5{--c:#56b4e9}.plot .c6{--c:#8b6d2f}.plot .c7{--c:#7f7f7f}
-@media (prefers-color-scheme:dark){.plot{--ink:#e6e9ec;--soft:#98a2ad;--line:#333b43}
-.plot .c0{--c:#4ea8de}.plot .c1{--c:#ff8c42}.plot .c2{--c:#2ec4a0}.plot .c3{--c:#e39cc6}}
-.plot text{fill:var(--soft)}.plot .title{fill:var(--ink);font-weight:600;font-size:14px}.plot .key{fill:var(--ink)}
-.plot .grid{stroke:var(--line);stroke-width:1}.plot .axis{stroke:var(--soft);stroke-width:1}
-.plot .curve{fill:none;stroke:var(--c);stroke-width:2;stroke-linejoin:round;stroke-linecap:round}
-.plot .band{fill:var(--c);opacity:.16;stroke:none}.plot .dot{fill:var(--c);stroke:none}
+    R"(.plot{font:12px system-ui,sans-serif}
+.plot .c0{color:#0072b2}.plot .c1{color:#d55e00}.plot .c2{color:#009e73}.plot .c3{color:#cc79a7}
+.plot .c4{color:#e69f00}.plot .c5{color:#56b4e9}.plot .c6{color:#8b6d2f}.plot .c7{color:#7f7f7f}
+.plot text{fill:#6a737d}.plot .key{fill:#1d2329}.plot .title{fill:#1d2329;font-weight:600;font-size:14px}
+.plot .grid{stroke:#d9dee3;stroke-width:1}.plot .axis{stroke:#6a737d;stroke-width:1}
+.plot .curve{fill:none;stroke:currentColor;stroke-width:2;stroke-linejoin:round;stroke-linecap:round}
+.plot .band{fill:currentColor;opacity:.16;stroke:none}.plot .dot{fill:currentColor;stroke:none}
+@media (prefers-color-scheme:dark){
+.plot .c0{color:#4ea8de}.plot .c1{color:#ff8c42}.plot .c2{color:#2ec4a0}.plot .c3{color:#e39cc6}
+.plot text{fill:#98a2ad}.plot .key,.plot .title{fill:#e6e9ec}.plot .grid{stroke:#333b43}.plot .axis{stroke:#98a2ad}}
 )";
 
 namespace detail {

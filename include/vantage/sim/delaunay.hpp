@@ -4,20 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
-extern "C" {
-#include <libqhull_r/qhull_ra.h>
-}
-
 #include <vantage/core/error.hpp>
+#include <vantage/core/qhull.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/image.hpp>
 #include <vantage/geometry/scalar_field.hpp>
@@ -27,46 +21,6 @@ namespace vantage {
 
 /// Corners of a triangle, as indices into the points.
 using Triangle = std::array<std::size_t, 3>;
-
-namespace detail {
-
-/// One run of Qhull: catches what it prints (nothing reaches the terminal) and frees what it holds.
-class Qhull {
- public:
-  explicit Qhull(std::vector<double>& coordinates) {
-    log_ = open_memstream(&text_, &size_);
-    if (!log_) throw Error("delaunay", "no memory for Qhull's messages");
-    qh_zero(&qh, log_);
-    char command[] = "qhull d Qt Qbb Qc Qz Q12";
-    code = qh_new_qhull(&qh, 2, static_cast<int>(coordinates.size() / 2), coordinates.data(), False, command, nullptr,
-                        log_);
-  }
-  Qhull(const Qhull&) = delete;
-  Qhull& operator=(const Qhull&) = delete;
-  ~Qhull() {
-    qh.NOerrexit = True;
-    qh_freeqhull(&qh, !qh_ALL);
-    int current = 0, total = 0;
-    qh_memfreeshort(&qh, &current, &total);
-    std::fclose(log_);
-    std::free(text_);
-  }
-  /// The first line of its complaint.
-  [[nodiscard]] std::string message() const {
-    std::fflush(log_);
-    return text_ ? std::string(text_, std::find(text_, text_ + size_, '\n')) : std::string();
-  }
-
-  qhT qh = {};
-  int code = 0;
-
- private:
-  char* text_ = nullptr;
-  std::size_t size_ = 0;
-  std::FILE* log_ = nullptr;
-};
-
-}  // namespace detail
 
 /// The Delaunay triangulation of distinct points (any unit); triangles without area are left out. Throws Error for
 /// fewer than three points, for points that are not finite, and if all lie on a line. O(n log n).
@@ -86,7 +40,7 @@ inline std::vector<Triangle> delaunay(std::span<const Eigen::Vector2d> points) {
   for (const Eigen::Vector2d& p : points)
     for (const double x : Eigen::Vector2d((p - box.min()) / size)) unit.push_back(x);
 
-  detail::Qhull run(unit);
+  detail::Qhull run("delaunay", "qhull d Qt Qbb Qc Qz Q12", 2, unit);
   if (run.code != 0)
     throw Error("delaunay", "Qhull refuses the points: " + run.message(), "points that do not all lie on a line");
   qhT* const qh = &run.qh;

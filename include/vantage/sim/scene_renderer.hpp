@@ -36,7 +36,8 @@ struct SceneRendererConfig {
 ///
 /// Light is constant over a side of a flat triangle, so that it is multiplied into the triangle's colour beforehand.
 /// What is left for a pixel: a texture's colour, from the mipmap that fits the pixel's footprint on the surface (exact
-/// for its area). Pixels are taken 8 x 2 at a time through ray, hit and colour, as structures of arrays. Owns copies of
+/// for its area). Pixels are taken 8 x 2 at a time through ray, hit and colour, as structures of arrays; sixteen such
+/// packets take each of these steps together, so that memory has time to bring what the next one reads. Owns copies of
 /// all it needs and does not change: const members run concurrently, copies share.
 class SceneRenderer {
  public:
@@ -56,44 +57,41 @@ class SceneRenderer {
 
  private:
   using Lanes = RayPacket::Lanes;
-  using Indices = TextureAtlas::Indices;
-  using Floats = TextureAtlas::Floats;
-  static constexpr Eigen::Index packet_width = 8, packet_height = 2, tile = 32;
-  static constexpr std::uint32_t no_texture = ~0U;
+  static constexpr Eigen::Index packet_width = 8, packet_height = 2, tile_width = 128, tile_height = 8;
 
   /// One cache line a triangle; the last one is the background.
   struct alignas(64) Surface {
     std::array<float, 6> colour = {};                        ///< times light: RGB of the front, of the back
     float u = 0, v = 0, u_1 = 0, v_1 = 0, u_2 = 0, v_2 = 0;  ///< at the first corner; along both edges
     float texels = 0;                                        ///< of the full texture, in twice the triangle
-    std::uint32_t texture = no_texture, label = 0;
+    TextureAtlas::Levels texture = TextureAtlas::plain;
   };
   struct Appearance {
     std::vector<Surface> surfaces;
+    std::vector<std::uint16_t> labels;                           ///< of each surface
     std::vector<std::array<Eigen::Vector3f, 3>> corner_colours;  ///< of each triangle, or none
     TextureAtlas textures;
   };
   static std::shared_ptr<const Appearance> appearance(const Scene& scene, const Config& config);
   static void set_texture(const Scene& scene, std::size_t triangle, std::uint32_t texture, Surface& surface);
 
-  /// The surfaces that a packet's rays meet; mostly it is one.
+  /// What a packet's rays meet.
   struct Met {
-    alignas(64) Indices surface;
-    bool one = false;
+    using Indices = std::array<std::uint32_t, static_cast<std::size_t>(RayPacket::size)>;
+    std::array<Lanes, 3> colour = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
+    Lanes u = Lanes::Zero(), v = u, u_1 = u, v_1 = u, u_2 = u, v_2 = u, texels = u, first = u, last = u;
+    Lanes along = u;  ///< of the ray, the normal
+    alignas(64) Indices surface = {};
+    bool textured = false;
+    TextureAtlas::Samples samples;  ///< if textured
+
+    /// For the lanes that meet surface `i`, as `lane` does.
+    void read(const Surface& s, std::uint32_t i, std::size_t lane);
   };
-  [[nodiscard]] Met met(const RayPacket& packet) const;
-  /// f(surface, lane) for all lanes; where all meet one surface they are on the same side of it, so that one lane says
-  /// it for all.
-  template <class To, class F>
-  void gather(const Met& met, To& to, F&& f) const {
-    const std::vector<Surface>& surfaces = appearance_->surfaces;
-    if (met.one)
-      to.fill(f(surfaces[met.surface[0]], 0));
-    else
-      for (std::size_t k = 0; k < to.size(); ++k) to[k] = f(surfaces[met.surface[k]], k);
-  }
-  /// Colours of a packet's pixels, each of which is `pixel_area` at depth 1.
-  void shade(const RayPacket& packet, const Met& met, float pixel_area, std::array<Lanes, 3>& rgb) const;
+  void meet(const RayPacket& packet, Met& met) const;
+  /// Finds the texels of a packet's pixels, each of which is `pixel_area` at depth 1.
+  void find_texels(const RayPacket& packet, float pixel_area, Met& met) const;
+  void shade(const RayPacket& packet, const Met& met, std::array<Lanes, 3>& rgb) const;
   /// The part of a packet that lies inside of the image.
   template <class T, class From>
   static void store(Image<T>& image, Eigen::Index row, Eigen::Index column, const From& lanes) {
@@ -129,6 +127,7 @@ inline std::shared_ptr<const SceneRenderer::Appearance> SceneRenderer::appearanc
   a->textures = TextureAtlas(scene.textures);
   const std::size_t n = scene.mesh.triangles.size();
   a->surfaces.resize(n + 1);
+  a->labels.resize(n + 1);
   for (std::size_t c = 0; c < 6; ++c) a->surfaces[n].colour[c] = background[static_cast<Eigen::Index>(c % 3)];
   if (!scene.mesh.colours.empty())
     a->corner_colours.resize(n + 1, {Eigen::Vector3f::Ones(), Eigen::Vector3f::Ones(), Eigen::Vector3f::Ones()});
@@ -140,8 +139,11 @@ inline std::shared_ptr<const SceneRenderer::Appearance> SceneRenderer::appearanc
       const Eigen::Vector3f front = material.colour.cwiseProduct(config.lighting.shade(normal));
       const Eigen::Vector3f back = material.colour.cwiseProduct(config.lighting.shade(-normal));
       s.colour = {front.x(), front.y(), front.z(), back.x(), back.y(), back.z()};
-      s.label = scene.label.empty() ? 0 : scene.label[i];
-      if (material.texture && !scene.uv.empty()) set_texture(scene, i, *material.texture, s);
+      if (!scene.label.empty()) a->labels[i] = scene.label[i];
+      if (material.texture && !scene.uv.empty()) {
+        set_texture(scene, i, *material.texture, s);
+        s.texture = a->textures.levels(*material.texture);
+      }
       if (!scene.mesh.colours.empty())
         for (std::size_t k = 0; k < 3; ++k) a->corner_colours[i][k] = scene.mesh.colours[scene.mesh.triangles[i][k]];
     }
@@ -157,7 +159,6 @@ inline void SceneRenderer::set_texture(const Scene& scene, std::size_t triangle,
                   "at most 1e6 repetitions");
   const Eigen::Vector2f origin(p.x() - std::floor(p.x()), p.y() - std::floor(p.y()));  // near 0: textures repeat
   const Eigen::Vector2f along_1 = q - p, along_2 = r - p;
-  s.texture = texture;
   s.u = origin.x();
   s.v = origin.y();
   s.u_1 = along_1.x();
@@ -168,47 +169,64 @@ inline void SceneRenderer::set_texture(const Scene& scene, std::size_t triangle,
              static_cast<float>(scene.textures[texture].width) * static_cast<float>(scene.textures[texture].height);
 }
 
-// Eigen's arrays where there is arithmetic; loops over lanes, which compilers vectorise, for the rest.
-inline void SceneRenderer::shade(const RayPacket& packet, const Met& met, float pixel_area,
-                                 std::array<Lanes, 3>& rgb) const {
-  const Appearance& a = *appearance_;
-  const Lanes along = packet.direction_x * packet.normal_x + packet.direction_y * packet.normal_y +
-                      packet.direction_z * packet.normal_z;
-  alignas(64) Indices side, texture;
-  for (std::size_t k = 0; k < side.size(); ++k) side[k] = along[static_cast<Eigen::Index>(k)] > 0 ? 3 : 0;
-  gather(met, texture, [](const Surface& s, std::size_t) { return s.texture; });
-  alignas(64) Floats value;
-  const Eigen::Map<const Lanes, Eigen::Aligned64> values(value.data());
-  for (std::size_t c = 0; c < 3; ++c) {
-    gather(met, value, [&](const Surface& s, std::size_t k) { return s.colour[side[k] + c]; });
-    rgb[c] = values;
-  }
+// Out of line, for g++ unrolls these loops over lanes where they stand within another one, before it can vectorise
+// them.
+[[gnu::noinline]] inline void SceneRenderer::Met::read(const Surface& s, std::uint32_t i, std::size_t lane) {
+  const Indices is = surface;
+  const auto set = [&](auto& to, auto value) {
+    for (std::size_t k = 0; k < is.size(); ++k) to.data()[k] = is[k] == i ? value : to.data()[k];
+  };
+  const std::size_t side = along[static_cast<Eigen::Index>(lane)] > 0 ? 3 : 0;  // one for all lanes of a triangle
+  for (std::size_t c = 0; c < 3; ++c) set(colour[c], s.colour[side + c]);
+  set(u, s.u);
+  set(v, s.v);
+  set(u_1, s.u_1);
+  set(v_1, s.v_1);
+  set(u_2, s.u_2);
+  set(v_2, s.v_2);
+  set(texels, s.texels);
+  set(first, s.texture.first);
+  set(last, s.texture.last);
+  textured |= s.texture.first > 0;
+}
 
-  bool textured = false;
-  for (const std::uint32_t t : texture) textured |= t != no_texture;
-  if (textured) {
-    const auto along_edges = [&](auto&& first, auto&& edge_1, auto&& edge_2) -> Lanes {
-      const auto all = [&](auto&& member) -> Lanes {
-        gather(met, value, [&](const Surface& s, std::size_t) { return s.*member; });
-        return values;
-      };
-      return all(first) + packet.u * all(edge_1) + packet.v * all(edge_2);
-    };
-    const Lanes u = along_edges(&Surface::u, &Surface::u_1, &Surface::u_2);
-    const Lanes v = along_edges(&Surface::v, &Surface::v_1, &Surface::v_2);
-    // A pixel covers pixel_area z^2 of a plane at depth z, and 1 / |n . d| as much of the surface (d_z = 1, |n| = 1).
-    gather(met, value, [](const Surface& s, std::size_t) { return s.texels; });
-    const Lanes depth = packet.distance.min(1e15F);  // what meets nothing is no NaN, either
-    const Lanes texels = pixel_area * depth.square() * values / along.abs().max(1e-30F);
-    alignas(64) Floats is_textured;
-    for (std::size_t k = 0; k < texture.size(); ++k) {
-      is_textured[k] = texture[k] == no_texture ? 0.F : 1.F;
-      texture[k] = texture[k] == no_texture ? 0 : texture[k];
-    }
-    const Eigen::Map<const Lanes, Eigen::Aligned64> mask(is_textured.data());
+// Neighbours meet few surfaces: each is read once, for all lanes that meet it.
+inline void SceneRenderer::meet(const RayPacket& packet, Met& met) const {
+  constexpr std::size_t size = RayPacket::size, width = packet_width;
+  const std::vector<Surface>& surfaces = appearance_->surfaces;
+  alignas(64) std::array<std::uint32_t, width + size> id;
+  for (std::size_t k = 0; k < width; ++k) id[k] = RayPacket::none;  // above the packet: none of them
+  for (std::size_t k = 0; k < size; ++k) id[width + k] = met.surface[k];
+  met.along = packet.direction_x * packet.normal_x + packet.direction_y * packet.normal_y +
+              packet.direction_z * packet.normal_z;
+  met.textured = false;
+  std::uint32_t differ = 0;  // from the lane before and from the one above
+  for (std::size_t k = 0; k < size; ++k)
+    differ |= (id[width + k] != id[width + k - 1] && id[width + k] != id[k] ? 1U : 0U) << k;
+  for (; differ != 0; differ &= differ - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(differ));
+    met.read(surfaces[met.surface[lane]], met.surface[lane], lane);
+  }
+}
+
+inline void SceneRenderer::find_texels(const RayPacket& packet, float pixel_area, Met& met) const {
+  // A pixel covers pixel_area z^2 of a plane at depth z, and 1 / |n . d| as much of the surface (d_z = 1, |n| = 1).
+  const Lanes depth = packet.distance.min(1e15F);  // what meets nothing is no NaN, either
+  appearance_->textures.find({.first = met.first,
+                              .last = met.last,
+                              .u = met.u + packet.u * met.u_1 + packet.v * met.u_2,
+                              .v = met.v + packet.u * met.v_1 + packet.v * met.v_2,
+                              .texels = pixel_area * depth.square() * met.texels / met.along.abs().max(1e-30F)},
+                             met.samples);
+}
+
+inline void SceneRenderer::shade(const RayPacket& packet, const Met& met, std::array<Lanes, 3>& rgb) const {
+  const Appearance& a = *appearance_;
+  rgb = met.colour;
+  if (met.textured) {
     std::array<Lanes, 3> sample;
-    a.textures.sample(texture, u, v, texels, sample);
-    for (std::size_t c = 0; c < 3; ++c) rgb[c] *= 1 + mask * (sample[c] - 1);
+    a.textures.colours(met.samples, sample);
+    for (std::size_t c = 0; c < 3; ++c) rgb[c] *= sample[c];
   }
   if (!a.corner_colours.empty())
     for (std::size_t k = 0; k < met.surface.size(); ++k) {
@@ -218,18 +236,6 @@ inline void SceneRenderer::shade(const RayPacket& packet, const Met& met, float 
       for (std::size_t c = 0; c < 3; ++c) rgb[c][lane] *= colour[static_cast<Eigen::Index>(c)];
     }
   for (Lanes& c : rgb) c = c.max(0.F).min(1.F);
-}
-
-inline SceneRenderer::Met SceneRenderer::met(const RayPacket& packet) const {
-  const auto background = static_cast<std::uint32_t>(appearance_->surfaces.size() - 1);
-  Met m;
-  std::uint32_t differ = 0;
-  for (std::size_t k = 0; k < m.surface.size(); ++k) {
-    m.surface[k] = std::min(packet.triangle[k], background);
-    differ |= packet.triangle[k] ^ packet.triangle[0];
-  }
-  m.one = differ == 0;
-  return m;
 }
 
 template <class... Channels>
@@ -255,38 +261,55 @@ void SceneRenderer::render(const View& view, const Camera& camera, Rendering<Cha
   const Eigen::Vector3f right = (r.col(0) / camera.fx).cast<float>(), down = (r.col(1) / camera.fy).cast<float>();
   const Eigen::Vector3f forward = r.col(2).cast<float>();
   const auto pixel_area = static_cast<float>(1 / (camera.fx * camera.fy));
-  const Eigen::Index columns = (width + tile - 1) / tile, rows = (height + tile - 1) / tile;
+  const Surface* const surfaces = appearance_->surfaces.data();
+  const auto background = static_cast<std::uint32_t>(appearance_->surfaces.size() - 1);
+  const Eigen::Index columns = (width + tile_width - 1) / tile_width, rows = (height + tile_height - 1) / tile_height;
   parallel_for(static_cast<std::size_t>(rows * columns), [&](std::size_t i) {
-    const Eigen::Index top = static_cast<Eigen::Index>(i) / columns * tile,
-                       left = static_cast<Eigen::Index>(i) % columns * tile;
+    const Eigen::Index top = static_cast<Eigen::Index>(i) / columns * tile_height,
+                       left = static_cast<Eigen::Index>(i) % columns * tile_width;
     Lanes lane_x, lane_y;  // pixel centres
     for (Eigen::Index k = 0; k < RayPacket::size; ++k) {
       const Eigen::Index row = k / packet_width;
       lane_x[k] = static_cast<float>(k % packet_width) + 0.5F;
       lane_y[k] = static_cast<float>(row) + 0.5F;
     }
-    RayPacket packet;
-    packet.origin = view.position().cast<float>();
-    for (Eigen::Index row = top; row < std::min(top + tile, height); row += packet_height)
-      for (Eigen::Index column = left; column < std::min(left + tile, width); column += packet_width) {
+    std::array<RayPacket, tile_width / packet_width> packets;
+    std::array<Met, tile_width / packet_width> mets;
+    const auto n = static_cast<std::size_t>((std::min(tile_width, width - left) + packet_width - 1) / packet_width);
+    for (RayPacket& packet : packets) packet.origin = view.position().cast<float>();
+    for (Eigen::Index row = top; row < std::min(top + tile_height, height); row += packet_height) {
+      for (std::size_t p = 0; p < n; ++p) {
+        RayPacket& packet = packets[p];
+        const Eigen::Index column = left + static_cast<Eigen::Index>(p) * packet_width;
         const Lanes x = static_cast<float>(static_cast<double>(column) - camera.cx) + lane_x;
         const Lanes y = static_cast<float>(static_cast<double>(row) - camera.cy) + lane_y;
         packet.direction_x = forward.x() + x * right.x() + y * down.x();
         packet.direction_y = forward.y() + x * right.y() + y * down.y();
         packet.direction_z = forward.z() + x * right.z() + y * down.z();
         rays_.cast(packet);
-        const Met surfaces = met(packet);
+        for (std::size_t k = 0; k < mets[p].surface.size(); ++k) {
+          mets[p].surface[k] = std::min(packet.triangle[k], background);
+          if constexpr (colour) __builtin_prefetch(&surfaces[mets[p].surface[k]]);
+        }
+      }
+      if constexpr (colour)
+        for (std::size_t p = 0; p < n; ++p) {
+          meet(packets[p], mets[p]);
+          if (mets[p].textured) find_texels(packets[p], pixel_area, mets[p]);
+        }
+      for (std::size_t p = 0; p < n; ++p) {
+        const RayPacket& packet = packets[p];
+        const Met& met = mets[p];
+        const Eigen::Index column = left + static_cast<Eigen::Index>(p) * packet_width;
         if constexpr (colour) {
           std::array<Lanes, 3> rgb;
-          shade(packet, surfaces, pixel_area, rgb);
+          shade(packet, met, rgb);
           store(out.r, row, column, rgb[0]);
           store(out.g, row, column, rgb[1]);
           store(out.b, row, column, rgb[2]);
         }
-        if constexpr (depth) {
-          const Lanes z = packet.distance.isFinite().select(packet.distance, std::numeric_limits<float>::quiet_NaN());
-          store(out.depth, row, column, z);
-        }
+        if constexpr (depth)  // infinity less itself is NaN
+          store(out.depth, row, column, Lanes(packet.distance + (packet.distance - packet.distance)));
         if constexpr (normal) {
           const Lanes along = packet.direction_x * packet.normal_x + packet.direction_y * packet.normal_y +
                               packet.direction_z * packet.normal_z;
@@ -299,10 +322,11 @@ void SceneRenderer::render(const View& view, const Camera& camera, Rendering<Cha
         }
         if constexpr (labels) {
           std::array<std::uint16_t, static_cast<std::size_t>(RayPacket::size)> label;
-          gather(surfaces, label, [](const Surface& s, std::size_t) { return static_cast<std::uint16_t>(s.label); });
+          for (std::size_t k = 0; k < label.size(); ++k) label[k] = appearance_->labels[met.surface[k]];
           store(out.labels, row, column, label);
         }
       }
+    }
   });
 }
 

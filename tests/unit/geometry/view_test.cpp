@@ -48,6 +48,14 @@ TEST(View, LookAtRefusesTheImpossible) {
   EXPECT_THROW(look_at({nan, 2, 3}, {1, 2, 3}), Error);
 }
 
+TEST(View, WorldToCameraUndoesCameraToWorld) {
+  Rng rng(5);
+  for (int i = 0; i < 20; ++i) {
+    const View v = look_at({rng.normal(), rng.normal(), rng.normal()}, {rng.normal(), rng.normal(), 5 + rng.normal()});
+    EXPECT_LE(((v.T_C_W() * v.T_W_C).matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-14);
+  }
+}
+
 TEST(View, DistanceIgnoresOrientation) {
   EXPECT_DOUBLE_EQ(distance_m(nadir(0, 0, 0), look_at({3, 4, 0}, {9, 9, 9})), 5);
   EXPECT_TRUE(same_place(nadir(1, 2, 3), look_at({1, 2, 3}, {0, 0, 0})));

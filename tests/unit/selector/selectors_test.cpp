@@ -13,6 +13,7 @@
 
 #include <vantage/concepts/archetypes.hpp>
 #include <vantage/selector/arg_max.hpp>
+#include <vantage/selector/first_of_branch.hpp>
 #include <vantage/selector/in_order.hpp>
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>
@@ -48,6 +49,28 @@ struct Walled {
     return {from, nadir(0, 0, 7), goal};
   }
 };
+
+TEST(FirstOfBranch, GoesTheFirstStepOfTheBestSequence) {
+  //  root - 0 - 2 - 3 (best)
+  //       \ 1 - 4
+  Candidates c = along_x({1, -2, 3, 4, -5}, {1, 2, 3, 9, 8});
+  c.parent = {-1, -1, 0, 2, 1};
+  const auto d = select(FirstOfBranch({.speed_m_s = 2}), c, nadir(0.5, 0, 0));
+  ASSERT_TRUE(d);
+  EXPECT_EQ(d->index, 0u);
+  EXPECT_EQ(d->travel_m, 0.5);
+  EXPECT_EQ(d->travel_s, 0.25);
+  ASSERT_EQ(d->path.size(), 2u);
+  EXPECT_TRUE(same_place(d->path.front(), nadir(0.5, 0, 0)) && same_place(d->path.back(), c.views[0]));
+  c.utilities[4] = 9.5;
+  EXPECT_EQ(select(FirstOfBranch{}, c)->index, 1u);
+  c.parent.clear();  // each for itself: ArgMax
+  EXPECT_EQ(select(FirstOfBranch{}, c)->index, 4u);
+  c.parent = {-1, 2, 1, 1, -1};
+  c.utilities[3] = 10;  // a circle
+  EXPECT_THROW(select(FirstOfBranch{}, c), Error);
+  EXPECT_THROW(FirstOfBranch({.speed_m_s = 0}), Error);
+}
 
 TEST(ArgMax, TakesTheBestAndFliesStraight) {
   const auto d = select(ArgMax({.speed_m_s = 2}), along_x({1, -8, 3}, {1, 5, 4}));

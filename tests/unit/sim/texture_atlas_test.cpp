@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <vantage/sim/texture_atlas.hpp>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -14,6 +15,7 @@ namespace vantage {
 namespace {
 
 using Lanes = TextureAtlas::Lanes;
+using Indices = std::array<std::size_t, 16>;
 
 Texture random_texture(int width, int height, std::uint64_t seed) {
   Rng rng(seed);
@@ -46,10 +48,17 @@ Eigen::Vector3d mean(const Texture& t) {
   return sum / (t.width * t.height);
 }
 
-std::vector<Eigen::Vector3d> sample(const TextureAtlas& atlas, const TextureAtlas::Indices& which, const Lanes& u,
-                                    const Lanes& v, const Lanes& texels) {
+std::vector<Eigen::Vector3d> sample(const TextureAtlas& atlas, const Indices& which, const Lanes& u, const Lanes& v,
+                                    const Lanes& texels) {
+  TextureAtlas::Footprints footprints{{}, {}, u, v, texels};
+  for (std::size_t k = 0; k < which.size(); ++k) {
+    footprints.first.data()[k] = atlas.levels(which[k]).first;
+    footprints.last.data()[k] = atlas.levels(which[k]).last;
+  }
+  TextureAtlas::Samples samples;
+  atlas.find(footprints, samples);
   std::array<Lanes, 3> rgb;
-  atlas.sample(which, u, v, texels, rgb);
+  atlas.colours(samples, rgb);
   std::vector<Eigen::Vector3d> colours;
   for (Eigen::Index k = 0; k < 16; ++k) colours.push_back(Eigen::Vector3d(rgb[0][k], rgb[1][k], rgb[2][k]));
   return colours;
@@ -63,20 +72,33 @@ TEST(TextureAtlas, IsBilinearAndRepeatsWherePixelsAreSmall) {
   Rng rng(9);
   for (int repeat = 0; repeat < 500; ++repeat) {
     Lanes u, v, texels;
-    TextureAtlas::Indices which;
-    const bool one = repeat % 2 == 0;  // both ways through the sampler
+    Indices which;
+    const bool one = repeat % 2 == 0;
     for (Eigen::Index k = 0; k < 16; ++k) {
       u[k] = static_cast<float>(rng.uniform(-3, 4));
       v[k] = static_cast<float>(rng.uniform(-3, 4));
       texels[k] = static_cast<float>(rng.uniform());
-      which[static_cast<std::size_t>(k)] =
-          static_cast<std::uint32_t>(one ? repeat / 2 % 4 : static_cast<int>(rng.index(4)));
+      which[static_cast<std::size_t>(k)] = one ? static_cast<std::size_t>(repeat / 2 % 4) : rng.index(4);
     }
     const auto colours = sample(atlas, which, u, v, texels);
     for (Eigen::Index k = 0; k < 16; ++k) {
       const auto i = static_cast<std::size_t>(k);
       EXPECT_LT((colours[i] - bilinear(textures[which[i]], u[k], v[k])).cwiseAbs().maxCoeff(), 2e-5);
     }
+  }
+}
+
+TEST(TextureAtlas, PlainIsExactlyWhite) {
+  const std::vector<Texture> textures = {random_texture(8, 4, 1)};
+  for (const TextureAtlas& atlas : {TextureAtlas(), TextureAtlas(textures)}) {
+    TextureAtlas::Footprints footprints{Lanes::Constant(TextureAtlas::plain.first),
+                                        Lanes::Constant(TextureAtlas::plain.last), Lanes::LinSpaced(-1, 2),
+                                        Lanes::LinSpaced(3, 1), Lanes::LinSpaced(0, 100)};
+    TextureAtlas::Samples samples;
+    atlas.find(footprints, samples);
+    std::array<Lanes, 3> rgb;
+    atlas.colours(samples, rgb);
+    for (const Lanes& c : rgb) EXPECT_TRUE((c == 1).all()) << c.transpose();
   }
 }
 
@@ -128,12 +150,12 @@ TEST(TextureAtlas, AnyFootprintAndPlaceGivesAColour) {
   Rng rng(4);
   for (int repeat = 0; repeat < 2000; ++repeat) {
     Lanes u, v, texels;
-    TextureAtlas::Indices which;
+    Indices which;
     for (Eigen::Index k = 0; k < 16; ++k) {
       u[k] = static_cast<float>(rng.uniform(-1, 1) * std::pow(10, rng.uniform(-6, 8)));
       v[k] = static_cast<float>(rng.uniform(-1, 1) * std::pow(10, rng.uniform(-6, 8)));
       texels[k] = static_cast<float>(std::pow(10, rng.uniform(-30, 30)));
-      which[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>(rng.index(2));
+      which[static_cast<std::size_t>(k)] = rng.index(2);
     }
     for (const Eigen::Vector3d& colour : sample(atlas, which, u, v, texels))
       EXPECT_TRUE((colour.array() >= -1e-6).all() && (colour.array() <= 1 + 1e-6).all()) << colour.transpose();

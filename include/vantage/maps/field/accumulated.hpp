@@ -72,8 +72,8 @@ struct MeasurementHistory {
     bool sound = ix.size() == n && iy.size() == n && y.rows() == rows && r.rows() == rows &&
                  (n == 0 || (y.cols() == 1 && r.cols() == 1));
     if (sound) {
-      h.value = y.reshaped();
-      h.noise_variance = r.reshaped();
+      h.value = Eigen::Map<const Eigen::VectorXd>(y.data(), y.size());
+      h.noise_variance = Eigen::Map<const Eigen::VectorXd>(r.data(), r.size());
     }
     sound = sound && h.value.allFinite() && h.noise_variance.allFinite() && (h.noise_variance.array() > 0).all() &&
             std::is_sorted(end.begin(), end.end()) && (end.empty() ? n == 0 : end.back() == n);

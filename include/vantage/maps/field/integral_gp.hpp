@@ -191,7 +191,7 @@ class IntegralGp {
       z.cells[kept++] = z.cells[k];
     }
     z.cells.resize(kept);
-    z.noise_variance.conservativeResize(static_cast<Eigen::Index>(kept));
+    z.noise_variance = Eigen::VectorXd(z.noise_variance.head(static_cast<Eigen::Index>(kept)));
     return z;
   }
   // What the saved numbers depend on.

@@ -49,7 +49,7 @@ class NdTree {
   explicit NdTree(const Config& config) : config_(config) {
     Check check("NdTree::Config");
     const Box2& a = config.area;
-    check(a.min().allFinite() && a.max().allFinite() && (a.sizes().array() > 0).all(), "area",
+    check(is_proper(a), "area",
           concat(a.min().transpose(), " to ", a.max().transpose()), "finite, of positive width and height");
     check(config.branching >= 2 && config.branching <= 16, "branching", config.branching, "2 to 16");
     check(config.depth >= 0 && config.depth <= 12, "depth", config.depth, "0 to 12");
@@ -113,7 +113,7 @@ class NdTree {
     const Eigen::Vector2d slack = 1e-4 * config_.area.sizes() / resolution();
     const Eigen::Vector2d low = (box.min() + slack).cwiseMax(config_.area.min());
     const Eigen::Vector2d high = (box.max() - slack).cwiseMin(config_.area.max());
-    if ((low.array() >= high.array()).any()) return;
+    if (low.x() >= high.x() || low.y() >= high.y()) return;
     const int x0 = fine(0, low.x()), x1 = fine(0, high.x()), y0 = fine(1, low.y()), y1 = fine(1, high.y());
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1;) {

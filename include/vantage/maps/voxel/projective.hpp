@@ -63,6 +63,20 @@ struct Projective {
       return weight > 0 ? weight : 0;
     });
   }
+  /// What a hit and a pass make of the log-odds of one voxel, its centre so far from the camera.
+  struct OneVoxel {
+    float gain, falloff_per_m, clamp;
+    [[nodiscard]] float after_hit(float log_odds, float distance_m) const {
+      return std::min(log_odds + change(distance_m), clamp);
+    }
+    [[nodiscard]] float after_pass(float log_odds, float distance_m) const {
+      return std::max(log_odds - change(distance_m), -clamp);
+    }
+    [[nodiscard]] float change(float distance_m) const { return gain * std::max(0.0F, 1 - falloff_per_m * distance_m); }
+  };
+  [[nodiscard]] OneVoxel one_voxel() const {
+    return {static_cast<float>(gain), static_cast<float>(falloff_per_m), static_cast<float>(clamp)};
+  }
   [[nodiscard]] VoxelBits free(std::span<const float, 512> log_odds) const {
     const auto most = static_cast<float>(log_odds_of(free_most));
     return where_log_odds(log_odds, [=](float l) { return l <= most; });

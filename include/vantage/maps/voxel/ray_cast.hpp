@@ -51,6 +51,16 @@ struct RayCast {
     add_log_odds(hits, pass, static_cast<float>(hit), static_cast<float>(-miss), static_cast<float>(log_odds_of(least)),
                  static_cast<float>(log_odds_of(most)), log_odds, [](std::size_t) { return 1.0F; });
   }
+  /// What a hit and a pass make of the log-odds of one voxel, however far.
+  struct OneVoxel {
+    float hit, miss, least, most;
+    [[nodiscard]] float after_hit(float log_odds, float) const { return std::min(log_odds + hit, most); }
+    [[nodiscard]] float after_pass(float log_odds, float) const { return std::max(log_odds + miss, least); }
+  };
+  [[nodiscard]] OneVoxel one_voxel() const {
+    return {static_cast<float>(hit), static_cast<float>(miss), static_cast<float>(log_odds_of(least)),
+            static_cast<float>(log_odds_of(most))};
+  }
   [[nodiscard]] VoxelBits free(std::span<const float, 512> log_odds) const {
     return where_log_odds(log_odds, [](float l) { return l < 0; });
   }

@@ -30,6 +30,7 @@
 #include <vantage/maps/voxel/log_odds.hpp>
 #include <vantage/maps/voxel/projective.hpp>
 #include <vantage/maps/voxel/ray_cast.hpp>
+#include <vantage/maps/voxel/render_voxels.hpp>
 #include <vantage/maps/voxel/voxel_blocks.hpp>
 
 namespace vantage {
@@ -42,9 +43,9 @@ namespace vantage {
 /// A voxel is explored once a frame hit or passed it. Frontier (free, and one of its 6 neighbours is a voxel of the
 /// grid that is unexplored) and navigable voxels are kept up with every frame, exactly, by bits, in the blocks around
 /// those that changed. Memory: 4 bytes for each block of 8^3 voxels that fits into the box, and 4.75 bytes a voxel
-/// (with classes 4 n more) of the blocks that were touched, in slabs of 64. Models NavigableMap, RegionMap<frontier>,
-/// CoverageMap, ForetellsRefusal and Persistent. Const members may run concurrently; `integrate` uses all threads, and
-/// its result does not depend on their number.
+/// (with classes 4 n more) of the blocks that were touched, in slabs of 64. Models UncertainMap, DepthMap,
+/// NavigableMap, RegionMap<frontier>, CoverageMap, ForetellsRefusal and Persistent. Const members may run concurrently;
+/// `integrate` uses all threads, and its result does not depend on their number.
 template <class Update = RayCast, class Semantics = NoClasses, class Clearance = BallInFreeVoxels>
 class VoxelMap {
  public:
@@ -127,6 +128,14 @@ class VoxelMap {
   }
   /// All that is known of a block (any block), or none; good until the map changes.
   [[nodiscard]] const VoxelBlock* block(const Eigen::Vector3i& block) const { return blocks_.find(block); }
+
+  /// Draws Depth, Entropy, Uncertainty and InformationGain, in any combination; see render_voxels. Entropy
+  /// and gain reach as far as the depth range.
+  template <class... Channels>
+  void render(const View& view, const Camera& camera, Rendering<Channels...>& out) const
+      requires(renders_voxels<Channels...>) {
+    render_voxels(*this, config_.update.one_voxel(), config_.range.max_m, view, camera, out);
+  }
 
   [[nodiscard]] double clearance_m() const { return config_.clearance_m; }
   [[nodiscard]] bool navigable(const Eigen::Vector3i& voxel) const {

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <vantage/mission/record.hpp>
+#include <vantage/planning/collision.hpp>
+
+#include "floor_plan.hpp"
+#include "fused_map.hpp"
+#include "input.hpp"
+
+namespace scene {
+
+/// Observer of an exploration that knows the truth: fuses what was measured, checks every path that was flown against
+/// the scene's triangles, and keeps how the map grew. What it does is not counted as mission time.
+class Referee {
+ public:
+  Referee(const Input& input, const Options& o)
+      : fused_({.bounds = input.bounds, .voxel_m = o.voxel_m, .truncation_m = 5 * o.voxel_m},
+               SurfaceCoverage(input.surface)),
+        robot_(CollisionScene(input.scene->mesh), shape::Sphere{o.body_radius_m}),
+        low_m_(input.bounds.min().z() + 0.2),
+        high_m_(input.bounds.max().z() - 0.4) {}
+
+  template <VoxelOccupancy M>
+  void measured(const M& map, const Situation& q, const Step<Frame>& step) {
+    Rng unused;
+    fused_.integrate(step.measurement, unused);
+    clearance_m_ = std::numeric_limits<double>::quiet_NaN();
+    if (step.plan != nullptr) {
+      std::vector<View> path = step.plan->decision.path;
+      if (path.empty()) path = {here_, step.plan->view};
+      const PathCheck check = robot_.check(path);
+      clearance_m_ = check.clearance_m;
+      collisions_ += check.free() ? 0 : 1;
+      paths_.push_back(std::move(path));
+    }
+    here_ = q.here;
+    growth_.push_back({step.index, FloorPlan(map, low_m_, high_m_)});
+  }
+
+  /// What is known of the mission but not by the robot: for the recorder, after `measured`.
+  template <CoverageMap M>
+  [[nodiscard]] std::vector<Metric> metrics(const M& map) const {
+    return {{"coverage", fused_.truth()->coverage()},
+            {"explored", map.coverage()},
+            {"clearance_m", clearance_m_},
+            {"collisions", static_cast<double>(collisions_)},
+            {"megabytes", static_cast<double>(map.bytes()) / 1e6}};
+  }
+
+  struct Growth {
+    std::uint64_t step;
+    FloorPlan plan;
+  };
+  [[nodiscard]] const FusedMap& fused() const { return fused_; }
+  [[nodiscard]] const std::vector<std::vector<View>>& paths() const { return paths_; }
+  [[nodiscard]] const std::vector<Growth>& growth() const { return growth_; }
+  [[nodiscard]] std::uint64_t collisions() const { return collisions_; }
+
+ private:
+  FusedMap fused_;
+  CollisionChecker robot_;
+  double low_m_, high_m_, clearance_m_ = std::numeric_limits<double>::quiet_NaN();
+  std::uint64_t collisions_ = 0;
+  View here_;
+  std::vector<std::vector<View>> paths_;
+  std::vector<Growth> growth_;
+};
+
+}  // namespace scene
