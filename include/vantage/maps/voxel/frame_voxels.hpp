@@ -161,38 +161,39 @@ struct FrameVoxels::Line {
   float high_x, high_y, high_z, max, none;
   std::int32_t stride_y, stride_z;
 
-  template <bool clip>
+  [[nodiscard]] float far(float depth) const {
+    const float valued = depth == depth ? depth : none;
+    return depth > max ? max : valued;
+  }
+  [[nodiscard]] std::int32_t number(std::int32_t x, std::int32_t y, std::int32_t z) const {
+    return (x >> 3) * 512 + (y >> 3) * stride_y + (z >> 3) * stride_z + ((x & 7) | (y & 7) << 3 | (z & 7) << 6);
+  }
   void numbers(const Eigen::Vector3f& left, const float* depth, std::size_t n, std::int32_t* out) const {
-    constexpr float inside = 0.01F;  // a ray that leaves the grid ends this part of a voxel before it does
     const Line l = *this;
     const float left_x = left.x(), left_y = left.y(), left_z = left.z();
     const auto count = static_cast<std::int32_t>(n);
     for (std::int32_t i = 0; i < count; ++i) {
-      const float k = static_cast<float>(i), d = depth[i];
-      const float dx = left_x + k * l.right_x, dy = left_y + k * l.right_y, dz = left_z + k * l.right_z;
-      const float valued = d == d ? d : l.none, far = d > l.max ? l.max : valued;
-      const float end_x = l.eye_x + far * dx, end_y = l.eye_y + far * dy, end_z = l.eye_z + far * dz;
-      const bool ends_in =
-          (end_x >= 0) & (end_x < l.high_x) & (end_y >= 0) & (end_y < l.high_y) & (end_z >= 0) & (end_z < l.high_z);
-      float z = far;
-      if constexpr (clip) {
-        const float tx = ((dx > 0 ? l.high_x - inside : inside) - l.eye_x) / dx,
-                    ty = ((dy > 0 ? l.high_y - inside : inside) - l.eye_y) / dy,
-                    tz = ((dz > 0 ? l.high_z - inside : inside) - l.eye_z) / dz;
-        const float ux = dx == 0 ? far : tx, uy = dy == 0 ? far : ty, uz = dz == 0 ? far : tz;
-        const float u = ux < uy ? ux : uy, t = u < uz ? u : uz;
-        z = (ends_in | !(t < far)) ? far : t;
-      }
-      const float x = l.eye_x + z * dx, y = l.eye_y + z * dy, w = l.eye_z + z * dz;
+      const float k = static_cast<float>(i), d = depth[i], z = l.far(d);
+      const float x = l.eye_x + z * (left_x + k * l.right_x), y = l.eye_y + z * (left_y + k * l.right_y),
+                  w = l.eye_z + z * (left_z + k * l.right_z);
       const bool in = (x >= 0) & (x < l.high_x) & (y >= 0) & (y < l.high_y) & (w >= 0) & (w < l.high_z) & (z > 0);
-      const bool is_hit = (d <= l.max) & ends_in;
-      const auto ix = static_cast<std::int32_t>(in ? x : 0), iy = static_cast<std::int32_t>(in ? y : 0),
-                 iz = static_cast<std::int32_t>(in ? w : 0);
-      const std::int32_t at = (ix >> 3) * 512 + (iy >> 3) * l.stride_y + (iz >> 3) * l.stride_z +
-                              ((ix & 7) | (iy & 7) << 3 | (iz & 7) << 6);
-      const std::int32_t ended = is_hit ? at : -2 - at;
+      const std::int32_t at = l.number(static_cast<std::int32_t>(in ? x : 0), static_cast<std::int32_t>(in ? y : 0),
+                                       static_cast<std::int32_t>(in ? w : 0));
+      const std::int32_t ended = d <= l.max ? at : -2 - at;
       out[i] = in ? ended : nowhere;
     }
+  }
+  /// Where the ray of a pixel leaves the grid before its depth.
+  [[nodiscard]] std::int32_t leaving(const Eigen::Vector3f& ray, float depth) const {
+    constexpr float inside = 0.01F;  // the part of a voxel by which it ends before that
+    const Eigen::Array3f eye(eye_x, eye_y, eye_z), high(high_x, high_y, high_z);
+    float z = far(depth);
+    for (int a = 0; a < 3; ++a)
+      if (ray[a] != 0) z = std::min(z, ((ray[a] > 0 ? high[a] - inside : inside) - eye[a]) / ray[a]);
+    const Eigen::Array3f at = eye + z * ray.array();
+    if (!(z > 0) || !(at >= 0).all() || !(at < high).all()) return nowhere;
+    const Eigen::Array3i voxel = at.cast<std::int32_t>();
+    return -2 - number(voxel[0], voxel[1], voxel[2]);
   }
 };
 
@@ -229,8 +230,13 @@ void FrameVoxels::for_pixels(const VoxelGrid& grid, const Frame& frame, const De
       for (Eigen::Index u0 = 0; u0 < camera.width; u0 += piece) {
         const Eigen::Index first = static_cast<Eigen::Index>(row) * camera.width + u0;
         const auto n = static_cast<std::size_t>(std::min(piece, camera.width - u0));
-        line.template numbers<clip>((left + static_cast<float>(u0) * right).eval(), frame.depth.data() + first, n,
-                                    number.data());
+        const float* depth = frame.depth.data() + first;
+        const Eigen::Vector3f start = left + static_cast<float>(u0) * right;
+        line.numbers(start, depth, n, number.data());
+        if constexpr (clip)
+          for (std::size_t i = 0; i < n; ++i)
+            if (number[i] == nowhere && line.far(depth[i]) > 0)
+              number[i] = line.leaving(start + static_cast<float>(i) * right, depth[i]);
         f(first, std::span<const std::int32_t>(number.data(), n));
       }
     }
