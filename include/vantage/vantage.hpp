@@ -69,6 +69,8 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/maps/surfel/rasteriser.hpp>
+#include <vantage/maps/surfel/surfels.hpp>
 #include <vantage/maps/voxel/class_counts.hpp>
 #include <vantage/maps/voxel/clearance.hpp>
 #include <vantage/maps/voxel/frame_voxels.hpp>
