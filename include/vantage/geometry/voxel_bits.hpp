@@ -98,7 +98,11 @@ struct alignas(64) VoxelBits {
     VoxelBits bits = a;
     return bits |= b;
   }
-  [[nodiscard]] constexpr bool operator==(const VoxelBits&) const = default;
+  [[nodiscard]] constexpr bool operator==(const VoxelBits& other) const {  // without the call that std::array's makes
+    std::uint64_t differ = 0;
+    for (std::size_t z = 0; z < 8; ++z) differ |= slice[z] ^ other.slice[z];
+    return differ == 0;
+  }
 
  private:
   static constexpr VoxelBits filled(std::uint64_t word) {

@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <utility>
 #include <vector>
@@ -79,7 +83,8 @@ class UnexploredVoxels {
 /// A voxel is visible if its centre is in the image, in range, and nearer than the depth that the map renders there; a
 /// pixel without depth sees as far as the range. Works with every map that renders depth and knows occupancy: the
 /// voxels are those of the map if it has any, else of a grid over its bounds. Views already in the sequence have seen
-/// what they see. In [0, 1]. Cost: one rendering a view, and the unexplored voxels in its frustum.
+/// what they see. In [0, 1]. Cost: one rendering a view (one a step of those given), and the
+/// unexplored voxels in its frustum.
 class Unexplored {
  public:
   using MapNeeds = Needs<need::Depth, need::Occupancy>;
@@ -103,44 +108,66 @@ class Unexplored {
   template <DepthMap M>
   requires OccupancyMap<M>
   auto prepare(const M& map, const Situation&, Rng) const {
-    return [config = config_, &map, voxels = UnexploredVoxels<M>(map, config_.voxel_m)](Views given, Views views,
-                                                                                        std::span<double> out) {
-      const auto count = counts(config, map, voxels, given, views);
+    return [scene = std::make_shared<const Scene<M>>(config_, map)](Views given, Views views, std::span<double> out) {
+      const auto count = scene->counts(given, views);
       for (std::size_t i = 0; i < views.size(); ++i)
-        out[i] = static_cast<double>(count[i]) / static_cast<double>(voxels.grid().count());
+        out[i] = static_cast<double>(count[i]) / static_cast<double>(scene->voxels.grid().count());
     };
   }
   /// Visible unexplored voxels from each of `views`, had those `given` been measured before.
   template <DepthMap M>
   requires OccupancyMap<M>
   [[nodiscard]] std::vector<std::uint64_t> count(const M& map, Views views, Views given = {}) const {
-    return counts(config_, map, UnexploredVoxels<M>(map, config_.voxel_m), given, views);
+    return Scene<M>(config_, map).counts(given, views);
   }
   [[nodiscard]] const Config& config() const { return config_; }
 
  private:
   template <class M>
-  static VisibleVoxels seen_from(const Config& config, const M& map, const VoxelGrid& grid, const View& view) {
-    Rendering<channel::Depth> image;
-    map.render(view, config.camera, image);
-    return {grid, view, config.camera, std::move(image.depth), config.far_m};
-  }
-  template <class M>
-  static std::vector<std::uint64_t> counts(const Config& config, const M& map, const UnexploredVoxels<M>& voxels,
-                                           Views given, Views views) {
-    std::vector<VisibleVoxels> before;
-    for (const View& v : given) before.push_back(seen_from(config, map, voxels.grid(), v));
-    std::vector<std::uint64_t> count(views.size());
-    parallel_for(views.size(), [&](std::size_t i) {
-      const VisibleVoxels visible = seen_from(config, map, voxels.grid(), views[i]);
-      visible.for_each_block([&](const Eigen::Vector3i& block) {
-        VoxelBits bits = visible(block, voxels.in(block));
-        for (const VisibleVoxels& b : before) bits &= ~b(block, bits);
-        count[i] += static_cast<std::uint64_t>(bits.count());
+  struct Scene {
+    Scene(const Config& c, const M& m) : config(c), map(&m), voxels(m, c.voxel_m) {}
+
+    Config config;
+    const M* map;
+    UnexploredVoxels<M> voxels;
+
+    [[nodiscard]] std::vector<std::uint64_t> counts(Views given, Views views) const {
+      std::vector<std::shared_ptr<const VisibleVoxels>> before;
+      for (const View& v : given) before.push_back(given_before(v));
+      std::vector<std::uint64_t> count(views.size());
+      parallel_for(views.size(), [&](std::size_t i) {
+        const VisibleVoxels visible = seen_from(views[i]);
+        visible.for_each_block([&](const Eigen::Vector3i& block) {
+          VoxelBits bits = visible(block, voxels.in(block));
+          for (const auto& b : before) bits &= ~(*b)(block, bits);
+          count[i] += static_cast<std::uint64_t>(bits.count());
+        });
       });
-    });
-    return count;
-  }
+      return count;
+    }
+
+   private:
+    [[nodiscard]] VisibleVoxels seen_from(const View& view) const {
+      Rendering<channel::Depth> image;
+      map->render(view, config.camera, image);
+      return {voxels.grid(), view, config.camera, std::move(image.depth), config.far_m};
+    }
+    /// A view that sequences begin with is given again with each of them, but rendered once.
+    [[nodiscard]] std::shared_ptr<const VisibleVoxels> given_before(const View& view) const {
+      const auto find = [&] {
+        const std::lock_guard lock(mutex_);
+        const auto at = std::find_if(seen_.begin(), seen_.end(),
+                                     [&](const auto& s) { return s.first.T_W_C.matrix() == view.T_W_C.matrix(); });
+        return at == seen_.end() ? nullptr : at->second;
+      };
+      if (auto found = find()) return found;
+      auto seen = std::make_shared<const VisibleVoxels>(seen_from(view));
+      const std::lock_guard lock(mutex_);
+      return seen_.emplace_back(view, std::move(seen)).second;
+    }
+    mutable std::mutex mutex_;
+    mutable std::deque<std::pair<View, std::shared_ptr<const VisibleVoxels>>> seen_;
+  };
   Config config_;
 };
 
