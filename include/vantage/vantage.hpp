@@ -106,11 +106,14 @@
 #include <vantage/selector/per_flight_time.hpp>
 #include <vantage/selector/route.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
+#include <vantage/utility/confidence_exploration.hpp>
+#include <vantage/utility/fisher_information.hpp>
 #include <vantage/utility/information_gain.hpp>
 #include <vantage/utility/mean_of_channel.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
 #include <vantage/utility/ray_entropy.hpp>
 #include <vantage/utility/unexplored.hpp>
+#include <vantage/utility/unexplored_voxels.hpp>
 #include <vantage/utility/uninformed.hpp>
 #include <vantage/utility/variance_reduction.hpp>
 #include <vantage/utility/view_distance.hpp>
