@@ -69,7 +69,11 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/maps/surfel/padded_rows.hpp>
 #include <vantage/maps/surfel/rasteriser.hpp>
+#include <vantage/maps/surfel/rendered_normals.hpp>
+#include <vantage/maps/surfel/smoothness.hpp>
+#include <vantage/maps/surfel/surfel_loss.hpp>
 #include <vantage/maps/surfel/surfels.hpp>
 #include <vantage/maps/voxel/class_counts.hpp>
 #include <vantage/maps/voxel/clearance.hpp>
