@@ -14,6 +14,7 @@
 #include <vantage/core/dense.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/core/huge_pages.hpp>
+#include <vantage/core/lanes.hpp>
 #include <vantage/core/large_matrix.hpp>
 #include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
@@ -69,7 +70,11 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/maps/surfel/depth_model.hpp>
+#include <vantage/maps/surfel/projection.hpp>
+#include <vantage/maps/surfel/raster_images.hpp>
 #include <vantage/maps/surfel/rasteriser.hpp>
+#include <vantage/maps/surfel/reference_rasteriser.hpp>
 #include <vantage/maps/surfel/surfels.hpp>
 #include <vantage/maps/voxel/class_counts.hpp>
 #include <vantage/maps/voxel/clearance.hpp>
