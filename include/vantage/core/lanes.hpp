@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace vantage {
+
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+inline constexpr std::size_t native_vector_bytes = 64;
+#elif defined(__AVX2__)
+inline constexpr std::size_t native_vector_bytes = 32;
+#else
+inline constexpr std::size_t native_vector_bytes = 16;
+#endif
+
+/// Sixteen numbers that are computed with as one: the compilers' vector types, as wide as the machine's, behind the
+/// notation of a scalar. A formula templated on its number type runs with double, float and Lanes<float>.
+template <class T>
+struct Lanes {
+  static_assert(sizeof(T) == 4);
+  static constexpr std::size_t size = 16, parts = size * sizeof(T) / native_vector_bytes;
+  using Native [[gnu::vector_size(native_vector_bytes)]] = T;
+
+  Native part[parts];  // std::array would drop the attribute
+
+  Lanes() = default;
+  Lanes(T x) {
+    for (Native& p : part) p = Native{} + x;
+  }
+  static Lanes load(const T* from) {
+    Lanes l;
+    std::memcpy(&l.part, from, sizeof(l.part));
+    return l;
+  }
+  /// f(lane) in every lane.
+  template <class F>
+  static Lanes generate(F&& f) {
+    alignas(64) std::array<T, size> values;
+    for (std::size_t i = 0; i < size; ++i) values[i] = f(i);
+    return load(values.data());
+  }
+  void store(T* to) const { std::memcpy(to, &part, sizeof(part)); }
+  [[nodiscard]] std::array<T, size> values() const { return std::bit_cast<std::array<T, size>>(*this); }
+
+  template <class F>
+  static Lanes each(F&& f) {
+    Lanes l;
+    for (std::size_t p = 0; p < parts; ++p) l.part[p] = f(p);
+    return l;
+  }
+  friend Lanes operator-(const Lanes& a) {
+    return each([&](std::size_t p) { return -a.part[p]; });
+  }
+  friend Lanes operator+(const Lanes& a, const Lanes& b) {
+    return each([&](std::size_t p) { return a.part[p] + b.part[p]; });
+  }
+  friend Lanes operator-(const Lanes& a, const Lanes& b) {
+    return each([&](std::size_t p) { return a.part[p] - b.part[p]; });
+  }
+  friend Lanes operator*(const Lanes& a, const Lanes& b) {
+    return each([&](std::size_t p) { return a.part[p] * b.part[p]; });
+  }
+  friend Lanes operator/(const Lanes& a, const Lanes& b) {
+    return each([&](std::size_t p) { return a.part[p] / b.part[p]; });
+  }
+  friend Lanes operator&(const Lanes& a, const Lanes& b) requires std::integral<T> {
+    return each([&](std::size_t p) { return a.part[p] & b.part[p]; });
+  }
+  friend Lanes operator<<(const Lanes& a, int bits) requires std::integral<T> {
+    return each([&](std::size_t p) { return a.part[p] << bits; });
+  }
+  Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
+  Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
+};
+
+/// All bits of a lane set where something holds, none where not.
+using LaneMask = Lanes<std::int32_t>;
+
+template <class T>
+LaneMask operator<(const Lanes<T>& a, const Lanes<T>& b) {
+  return LaneMask::each([&](std::size_t p) { return a.part[p] < b.part[p]; });
+}
+template <class T>
+LaneMask operator>=(const Lanes<T>& a, const Lanes<T>& b) {
+  return LaneMask::each([&](std::size_t p) { return a.part[p] >= b.part[p]; });
+}
+template <class T>
+LaneMask operator>(const Lanes<T>& a, const Lanes<T>& b) {
+  return b < a;
+}
+template <class T>
+LaneMask operator<=(const Lanes<T>& a, const Lanes<T>& b) {
+  return b >= a;
+}
+
+/// a where the mask is set, else b.
+template <class T>
+Lanes<T> select(const LaneMask& mask, const Lanes<T>& a, const Lanes<T>& b) {
+  return Lanes<T>::each([&](std::size_t p) { return mask.part[p] ? a.part[p] : b.part[p]; });
+}
+template <std::floating_point T>
+T select(bool mask, T a, T b) {
+  return mask ? a : b;
+}
+
+/// Whether any lane is set.
+inline bool any(const LaneMask& mask) {
+  const auto words = std::bit_cast<std::array<std::uint64_t, 8>>(mask);
+  std::uint64_t all = 0;
+  for (const std::uint64_t w : words) all |= w;
+  return all != 0;
+}
+
+/// b where a is not a number.
+template <class T>
+Lanes<T> min(const Lanes<T>& a, const Lanes<T>& b) {
+  return select(a < b, a, b);
+}
+template <class T>
+Lanes<T> max(const Lanes<T>& a, const Lanes<T>& b) {
+  return select(a > b, a, b);
+}
+inline Lanes<float> abs(const Lanes<float>& a) { return max(a, -a); }
+inline Lanes<float> sqrt(const Lanes<float>& a) {
+  return Lanes<float>::generate([v = a.values()](std::size_t i) { return std::sqrt(v[i]); });
+}
+
+/// The same bits, taken as another type.
+template <class To, class From>
+Lanes<To> cast_bits(const Lanes<From>& a) {
+  return std::bit_cast<Lanes<To>>(a);
+}
+
+/// 2^x for x in [-126, 127], to 2e-7 of it; outside, NaN included, the nearest bound's.
+inline Lanes<float> exp2(const Lanes<float>& exponent) {
+  const Lanes<float> x = min(max(exponent, Lanes<float>(-126.0F)), Lanes<float>(127.0F));
+  const Lanes<float> shift = 0x1.8p23F, shifted = x + shift;  // rounds: the integer stands in the lowest bits
+  const Lanes<float> f = x - (shifted - shift);               // in [-1/2, 1/2]
+  Lanes<float> p = 1.535336188319500e-4F;
+  p = p * f + 1.339887440266574e-3F;
+  p = p * f + 9.618437357674640e-3F;
+  p = p * f + 5.550332471162809e-2F;
+  p = p * f + 2.402264791363012e-1F;
+  p = p * f + 6.931472028550421e-1F;
+  p = p * f + 1.0F;
+  return cast_bits<float>(cast_bits<std::int32_t>(p) + (cast_bits<std::int32_t>(shifted) << 23));
+}
+inline Lanes<float> exp(const Lanes<float>& x) { return exp2(x * 1.44269504088896341F); }
+
+/// The type of one number in a T.
+template <class T>
+struct ScalarOfLanes {
+  using type = T;
+};
+template <class T>
+struct ScalarOfLanes<Lanes<T>> {
+  using type = T;
+};
+template <class T>
+using ScalarOf = typename ScalarOfLanes<T>::type;
+
+}  // namespace vantage
