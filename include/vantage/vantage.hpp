@@ -75,7 +75,14 @@
 #include <vantage/maps/surfel/raster_images.hpp>
 #include <vantage/maps/surfel/rasteriser.hpp>
 #include <vantage/maps/surfel/reference_rasteriser.hpp>
+#include <vantage/maps/surfel/splat_chain.hpp>
 #include <vantage/maps/surfel/surfels.hpp>
+#include <vantage/maps/surfel/tile_bins.hpp>
+#include <vantage/maps/surfel/tile_blend.hpp>
+#include <vantage/maps/surfel/tile_pixels.hpp>
+#include <vantage/maps/surfel/tile_rasteriser.hpp>
+#include <vantage/maps/surfel/tile_sweep.hpp>
+#include <vantage/maps/surfel/visible_splats.hpp>
 #include <vantage/maps/voxel/class_counts.hpp>
 #include <vantage/maps/voxel/clearance.hpp>
 #include <vantage/maps/voxel/frame_voxels.hpp>
