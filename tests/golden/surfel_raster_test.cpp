@@ -17,6 +17,7 @@
 #include <vantage/io/csv.hpp>
 #include <vantage/io/npy.hpp>
 #include <vantage/maps/surfel/reference_rasteriser.hpp>
+#include <vantage/maps/surfel/tile_rasteriser.hpp>
 
 #ifndef VANTAGE_GOLDEN_DIR
 #define VANTAGE_GOLDEN_DIR ""

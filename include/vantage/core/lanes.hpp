@@ -10,6 +10,10 @@
 #include <cstdint>
 #include <cstring>
 
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+#include <immintrin.h>
+#endif
+
 namespace vantage {
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
@@ -31,7 +35,7 @@ struct Lanes {
   Native part[parts];  // std::array would drop the attribute
 
   Lanes() = default;
-  Lanes(T x) {
+  Lanes(T x) {  // NOLINT(google-explicit-constructor): a number is sixteen of it
     for (Native& p : part) p = Native{} + x;
   }
   static Lanes load(const T* from) {
@@ -110,13 +114,19 @@ T select(bool mask, T a, T b) {
   return mask ? a : b;
 }
 
-/// Whether any lane is set.
-inline bool any(const LaneMask& mask) {
-  const auto words = std::bit_cast<std::array<std::uint64_t, 8>>(mask);
-  std::uint64_t all = 0;
-  for (const std::uint64_t w : words) all |= w;
-  return all != 0;
+/// Bit i: lane i is set.
+inline std::uint32_t bits(const LaneMask& mask) {
+#if defined(__AVX512F__) && defined(__AVX512DQ__)
+  return _mm512_movepi32_mask(std::bit_cast<__m512i>(mask));
+#else
+  const auto lanes = mask.values();
+  std::uint32_t all = 0;
+  for (std::size_t i = 0; i < lanes.size(); ++i) all |= (lanes[i] < 0 ? 1U : 0U) << i;
+  return all;
+#endif
 }
+/// Whether any lane is set.
+inline bool any(const LaneMask& mask) { return bits(mask) != 0; }
 
 /// b where a is not a number.
 template <class T>
@@ -126,6 +136,9 @@ Lanes<T> min(const Lanes<T>& a, const Lanes<T>& b) {
 template <class T>
 Lanes<T> max(const Lanes<T>& a, const Lanes<T>& b) {
   return select(a > b, a, b);
+}
+inline Lanes<float> log2(const Lanes<float>& a) {
+  return Lanes<float>::generate([v = a.values()](std::size_t i) { return std::log2(v[i]); });
 }
 inline Lanes<float> abs(const Lanes<float>& a) { return max(a, -a); }
 inline Lanes<float> sqrt(const Lanes<float>& a) {
@@ -138,9 +151,8 @@ Lanes<To> cast_bits(const Lanes<From>& a) {
   return std::bit_cast<Lanes<To>>(a);
 }
 
-/// 2^x for x in [-126, 127], to 2e-7 of it; outside, NaN included, the nearest bound's.
-inline Lanes<float> exp2(const Lanes<float>& exponent) {
-  const Lanes<float> x = min(max(exponent, Lanes<float>(-126.0F)), Lanes<float>(127.0F));
+/// 2^x to 2e-7 of it for x in [-126, 127]; outside, anything.
+inline Lanes<float> exp2_within(const Lanes<float>& x) {
   const Lanes<float> shift = 0x1.8p23F, shifted = x + shift;  // rounds: the integer stands in the lowest bits
   const Lanes<float> f = x - (shifted - shift);               // in [-1/2, 1/2]
   Lanes<float> p = 1.535336188319500e-4F;
@@ -151,6 +163,10 @@ inline Lanes<float> exp2(const Lanes<float>& exponent) {
   p = p * f + 6.931472028550421e-1F;
   p = p * f + 1.0F;
   return cast_bits<float>(cast_bits<std::int32_t>(p) + (cast_bits<std::int32_t>(shifted) << 23));
+}
+/// 2^x to 2e-7 of it, x held within [-126, 127]; NaN counts as the least.
+inline Lanes<float> exp2(const Lanes<float>& x) {
+  return exp2_within(min(max(x, Lanes<float>(-126.0F)), Lanes<float>(127.0F)));
 }
 inline Lanes<float> exp(const Lanes<float>& x) { return exp2(x * 1.44269504088896341F); }
 

@@ -19,9 +19,9 @@ namespace vantage {
 
 /// Which voxels are of low confidence (section 6.1.5).
 struct LowConfidenceConfig {
-  int more_than = 5;            ///< surfels in the voxel, each
-  double confidence = 0.3;      ///< of less confidence than this
-  double opacity = 0.7;         ///< and of more opacity than this, in [0, 1)
+  int more_than = 5;        ///< surfels in the voxel, each
+  double confidence = 0.3;  ///< of less confidence than this
+  double opacity = 0.7;     ///< and of more opacity than this, in [0, 1)
 
   void validate() const {
     Check check("LowConfidenceConfig");
@@ -33,8 +33,8 @@ struct LowConfidenceConfig {
 };
 
 /// Voxels that hold many opaque surfels of low confidence and touch a free voxel (one of 26 neighbours), by their
-/// centres; the normal is the normalised mean of those surfels' normals, or, where these cancel out, up. In the order of
-/// x, then y, then z. O(surfels log surfels).
+/// centres; the normal is the normalised mean of those surfels' normals, or, where these cancel out, up. In the order
+/// of x, then y, then z. O(surfels log surfels).
 template <VoxelOccupancy Voxels>
 std::vector<Region> low_confidence_regions(const Surfels& surfels, const Voxels& voxels,
                                            const LowConfidenceConfig& config = {}) {

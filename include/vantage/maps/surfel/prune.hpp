@@ -14,9 +14,9 @@ namespace vantage {
 
 /// Which surfels are given up, and when (section 6.1.2).
 struct PruneConfig {
-  int every_frames = 5;          ///< >= 1
-  double least_weight = 0.03;    ///< a surfel stays if its weight is above this in a measured pixel of some frame, >= 0
-  double least_opacity = 0.1;    ///< and its opacity is at least this, [0, 1)
+  int every_frames = 5;        ///< >= 1
+  double least_weight = 0.03;  ///< a surfel stays if its weight is above this in a measured pixel of some frame, >= 0
+  double least_opacity = 0.1;  ///< and its opacity is at least this, [0, 1)
 
   void validate() const {
     Check check("PruneConfig");
@@ -27,8 +27,8 @@ struct PruneConfig {
   }
 };
 
-/// Removes the surfels whose largest weight or opacity is too low (or no number), and their `numbers` of state each; the
-/// others keep their order. Returns how many are gone. O(surfels), nothing is allocated.
+/// Removes the surfels whose largest weight or opacity is too low (or no number), and their `numbers` of state each;
+/// the others keep their order. Returns how many are gone. O(surfels), nothing is allocated.
 inline std::size_t prune(Surfels& surfels, std::vector<float>& state, std::size_t numbers,
                          std::span<const float> weight, const PruneConfig& config) {
   std::size_t kept = 0;

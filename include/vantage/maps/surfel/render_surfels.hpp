@@ -60,8 +60,8 @@ void finish_images(R& r, const View& view) {
 }  // namespace detail
 
 /// Draws surfels: Colour (clamped to [0, 1]), Depth (NaN where nothing is), Opacity, Normal (world frame, 0 where
-/// nothing is), Confidence (sum w k, at least 0: not divided by the opacity) and Uncertainty = 1 - Confidence clamped to
-/// [0, 1], so that what was never seen has 1. Throws Error unless view and camera are valid.
+/// nothing is), Confidence (sum w k, at least 0: not divided by the opacity) and Uncertainty = 1 - Confidence clamped
+/// to [0, 1], so that what was never seen has 1. Throws Error unless view and camera are valid.
 template <SurfelRasteriser Rasteriser, class... Channels>
 requires(renders_surfels<Channels...>) void render_surfels(const Surfels& surfels, const Rasteriser& rasteriser,
                                                            typename Rasteriser::Pass& pass, const View& view,

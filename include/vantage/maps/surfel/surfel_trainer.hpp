@@ -17,8 +17,8 @@ namespace vantage {
 /// What the loss of a frame is computed from.
 using TrainingImages = Rendering<channel::Colour, channel::Depth, channel::Normal, channel::Opacity>;
 
-/// Trains surfels on frames (section 6.1.2): each iteration renders a batch of them, and takes one step of Adam down the
-/// sum of their gradients. Keeps memory from call to call, and nothing else.
+/// Trains surfels on frames (section 6.1.2): each iteration renders a batch of them, and takes one step of Adam down
+/// the sum of their gradients. Keeps memory from call to call, and nothing else.
 template <SurfelRasteriser Rasteriser, class Variation>
 class SurfelTrainer {
  public:

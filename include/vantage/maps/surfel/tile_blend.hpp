@@ -1,0 +1,137 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include <vantage/maps/surfel/raster_images.hpp>
+#include <vantage/maps/surfel/rasteriser.hpp>
+#include <vantage/maps/surfel/tile_pixels.hpp>
+
+namespace vantage {
+
+/// Sums over a pixel's surfels: sixteen pixels each.
+enum BlendSum : std::size_t {
+  sum_red,
+  sum_green,
+  sum_blue,
+  sum_depth,
+  sum_normal_x,
+  sum_normal_y,
+  sum_normal_z,
+  light_left,
+  sum_confidence,
+  blend_sums
+};
+/// What backward needs of a forward: all but the confidence.
+inline constexpr std::size_t kept_sums = sum_confidence;
+using BlendSums = std::array<Lanes<float>, blend_sums>;
+using KeptSums = std::array<Lanes<float>, kept_sums>;
+
+/// Draws the splats of a tile into the channels of R (eqs. 6.2, 6.3), sub-block by sub-block: its sums stay in
+/// registers while its own list of splats goes by.
+template <int tile, class Depth, class R>
+class TileBlend {
+ public:
+  static constexpr std::size_t blocks = TilePixels<tile>::blocks;
+
+  TileBlend(const RasterView& view, const TilePixels<tile>& pixels) : view_(view), pixels_(pixels) {
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (!pixels.has_pixels(b)) continue;
+      open_ |= std::uint64_t{1} << b;
+      light_[b] = Transmittance(pixels, b);
+      sums_[b].fill(Lanes<float>(0.0F));
+    }
+  }
+
+  void draw(const VisibleSplats& from, std::span<const std::uint32_t> index) {
+    TileSplats<tile> splats;
+    for (std::size_t i = 0; i < index.size() && open_ != 0; i += splats.capacity) {
+      splats.load(from, index.subspan(i, std::min(index.size() - i, splats.capacity)), pixels_);
+      draw(splats);
+    }
+  }
+
+  /// The channels' pixels, and what backward needs.
+  void write(R& out, KeptSums* kept) {
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (pixels_.has_pixels(b)) write(b, out, kept[b]);
+  }
+
+ private:
+  void draw(const TileSplats<tile>& splats) {
+    std::array<std::array<std::uint8_t, TileSplats<tile>::capacity>, blocks> list;
+    std::array<std::uint8_t, blocks> length{};
+    for (std::size_t i = 0; i < splats.n; ++i)
+      for (std::uint64_t to = splats.reach[i] & open_; to != 0; to &= to - 1) {
+        const auto b = static_cast<std::size_t>(std::countr_zero(to));
+        list[b][length[b]++] = static_cast<std::uint8_t>(i);
+      }
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (length[b] != 0) draw(splats, {list[b].data(), length[b]}, b);
+  }
+
+  void draw(const TileSplats<tile>& splats, std::span<const std::uint8_t> list, std::size_t b) {
+    const Lanes<float> x = pixels_.x(b), y = pixels_.y(b);
+    Transmittance light = light_[b];
+    BlendSums sums = sums_[b];
+    for (const std::uint8_t i : list) {
+      const PackedSplat& s = splats.splat[i];
+      const Transmittance::Drawn d = light.draw(s, x, y);
+      if constexpr (draws<channel::Colour, R>)
+        for (std::size_t k = 0; k < 3; ++k) sums[sum_red + k] += d.weight * s.colour[k];
+      if constexpr (draws<channel::Depth, R>)
+        sums[sum_depth] += d.weight * Depth::at(Lanes<float>(s.z), d.dx * s.zx + d.dy * s.zy).depth;
+      if constexpr (draws<channel::Normal, R>)
+        for (std::size_t k = 0; k < 3; ++k) sums[sum_normal_x + k] += d.weight * s.normal[k];
+      if constexpr (draws<channel::Confidence, R>) sums[sum_confidence] += d.weight * s.confidence;
+      if (light.full()) {
+        open_ &= ~(std::uint64_t{1} << b);
+        break;
+      }
+    }
+    light_[b] = light;
+    sums_[b] = sums;
+  }
+
+  void write(std::size_t b, R& out, KeptSums& kept) {
+    using L = Lanes<float>;
+    const L left = light_[b].left, opacity = 1.0F - left;
+    BlendSums& sums = sums_[b];
+    kept[light_left] = left;
+    if constexpr (draws<channel::Colour, R>) {
+      channel::Colour& c = out;
+      for (std::size_t k = 0; k < 3; ++k) kept[sum_red + k] = sums[sum_red + k] += left * view_.background[k];
+      pixels_.write(sums[sum_red], b, c.r);
+      pixels_.write(sums[sum_green], b, c.g);
+      pixels_.write(sums[sum_blue], b, c.b);
+    }
+    if constexpr (draws<channel::Depth, R>) {
+      kept[sum_depth] = sums[sum_depth];
+      const L nothing = std::numeric_limits<float>::quiet_NaN();
+      pixels_.write(select(opacity > L(1e-6F), sums[sum_depth] / max(opacity, L(1e-6F)), nothing), b, out.depth);
+    }
+    if constexpr (draws<channel::Normal, R>) {
+      channel::Normal& n = out;
+      for (std::size_t k = 0; k < 3; ++k) kept[sum_normal_x + k] = sums[sum_normal_x + k];
+      pixels_.write(sums[sum_normal_x], b, n.x);
+      pixels_.write(sums[sum_normal_y], b, n.y);
+      pixels_.write(sums[sum_normal_z], b, n.z);
+    }
+    if constexpr (draws<channel::Opacity, R>) pixels_.write(opacity, b, out.opacity);
+    if constexpr (draws<channel::Confidence, R>) pixels_.write(sums[sum_confidence], b, out.confidence);
+  }
+
+  const RasterView& view_;
+  const TilePixels<tile>& pixels_;
+  std::uint64_t open_ = 0;
+  std::array<Transmittance, blocks> light_;
+  std::array<BlendSums, blocks> sums_;
+};
+
+}  // namespace vantage

@@ -1,0 +1,198 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <vantage/maps/surfel/tile_blend.hpp>
+
+namespace vantage {
+
+/// Sixteen numbers of one splat in one tile.
+using SplatSums = std::array<float, 16>;
+
+/// out[j] = sum over the lanes of in[j].
+inline void sum_lanes(const std::array<Lanes<float>, 16>& in, SplatSums& out) {
+  for (std::size_t j = 0; j < 16; ++j) {
+    const auto v = in[j].values();
+    std::array<float, 8> half;
+    for (std::size_t i = 0; i < 8; ++i) half[i] = v[i] + v[i + 8];
+    out[j] = ((half[0] + half[4]) + (half[2] + half[6])) + ((half[1] + half[5]) + (half[3] + half[7]));
+  }
+}
+
+/// Draws the splats of a tile once more, splat by splat, so that what `Pixels` sums of one stays in registers until it
+/// has been drawn. `Pixels` offers Sums (made anew for every splat), add(sums, sub-block, splat, drawn) and
+/// write(sums, place), place = 0 for the tile's first splat.
+template <int tile, class Pixels>
+void sweep_tile(const VisibleSplats& from, std::span<const std::uint32_t> index, const TilePixels<tile>& at,
+                Pixels& pixels) {
+  constexpr std::size_t blocks = TilePixels<tile>::blocks;
+  std::array<Lanes<float>, blocks> x, y;
+  std::array<Transmittance, blocks> light;
+  std::uint64_t open = 0;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    if (!at.has_pixels(b)) continue;
+    open |= std::uint64_t{1} << b;
+    x[b] = at.x(b);
+    y[b] = at.y(b);
+    light[b] = Transmittance(at, b);
+  }
+  TileSplats<tile> splats;
+  for (std::size_t i = 0; i < index.size(); i += splats.capacity) {
+    splats.load(from, index.subspan(i, std::min(index.size() - i, splats.capacity)), at);
+    for (std::size_t k = 0; k < splats.n; ++k) {
+      const PackedSplat& s = splats.splat[k];
+      typename Pixels::Sums sums;
+      for (std::uint64_t to = splats.reach[k] & open; to != 0; to &= to - 1) {
+        const auto b = static_cast<std::size_t>(std::countr_zero(to));
+        pixels.add(sums, b, s, light[b].draw(s, x[b], y[b]));
+        if (light[b].full()) open &= ~(std::uint64_t{1} << b);
+      }
+      pixels.write(sums, i + k);
+    }
+  }
+}
+
+/// Derivatives of a loss by a splat: colour, then depth by z, by its slope, and that by dx, dy; normal; then with h the
+/// derivative by log alpha, the sums of h, h dx, h dy, h dx^2, h dx dy, h dy^2.
+enum GradientSum : std::size_t { by_colour = 0, by_depth = 3, by_normal = 7, by_log_alpha = 10 };
+
+/// From near to far: what lies behind a surfel is the whole image less what has been drawn, so that nothing is divided
+/// by the light that is left.
+template <int tile, class Depth>
+class GradientPixels {
+ public:
+  static constexpr std::size_t blocks = TilePixels<tile>::blocks;
+  struct Sums {
+    std::array<Lanes<float>, 16> value;
+    Sums() { value.fill(Lanes<float>(0.0F)); }
+  };
+
+  GradientPixels(const TilePixels<tile>& at, const ImageGradient& d, const KeptSums* kept, SplatSums* out) : out_(out) {
+    using L = Lanes<float>;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      if (!at.has_pixels(b)) continue;
+      auto& g = by_[b];
+      g = {at.read(d.colour.r, b), at.read(d.colour.g, b), at.read(d.colour.b, b), at.read(d.depth, b),
+           at.read(d.normal_x, b), at.read(d.normal_y, b), at.read(d.normal_z, b), at.read(d.opacity, b)};
+      // Depth is sum w z / sum w.
+      const KeptSums& sums = kept[b];
+      const L opacity = 1.0F - sums[light_left];
+      const LaneMask drawn = opacity > L(1e-6F);
+      L behind = 0.0F;
+      if (d.depth.size() != 0) {
+        g[3] = select(drawn, g[3] / max(opacity, L(1e-6F)), L(0));
+        g[7] -= select(drawn, g[3] * sums[sum_depth] / max(opacity, L(1e-6F)), L(0));
+        behind += g[3] * sums[sum_depth];
+      }
+      if (d.colour.r.size() != 0) behind += g[0] * sums[sum_red];
+      if (d.colour.g.size() != 0) behind += g[1] * sums[sum_green];
+      if (d.colour.b.size() != 0) behind += g[2] * sums[sum_blue];
+      if (d.normal_x.size() != 0) behind += g[4] * sums[sum_normal_x];
+      if (d.normal_y.size() != 0) behind += g[5] * sums[sum_normal_y];
+      if (d.normal_z.size() != 0) behind += g[6] * sums[sum_normal_z];
+      behind_[b] = behind + g[7] * opacity;
+    }
+  }
+
+  [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat& s, const Transmittance::Drawn& d) {
+    using L = Lanes<float>;
+    const auto& g = by_[b];
+    const DepthAt<L> depth = Depth::at(L(s.z), d.dx * s.zx + d.dy * s.zy);
+    const L drawn = g[0] * s.colour[0] + g[1] * s.colour[1] + g[2] * s.colour[2] + g[3] * depth.depth +
+                    g[4] * s.normal[0] + g[5] * s.normal[1] + g[6] * s.normal[2] + g[7];
+    behind_[b] -= d.weight * drawn;
+    const L h = select(d.raw > L(0.99F), L(0), d.alpha * (d.before * drawn - behind_[b] / (1.0F - d.alpha)));
+    auto& v = sums.value;
+    for (std::size_t k = 0; k < 3; ++k) {
+      v[by_colour + k] += d.weight * g[k];
+      v[by_normal + k] += d.weight * g[4 + k];
+    }
+    const L by_z = d.weight * g[3], by_slope = by_z * depth.by_slope;
+    v[by_depth] += by_z * depth.by_z;
+    v[by_depth + 1] += by_slope;
+    v[by_depth + 2] += by_slope * d.dx;
+    v[by_depth + 3] += by_slope * d.dy;
+    const L hx = h * d.dx, hy = h * d.dy;
+    v[by_log_alpha] += h;
+    v[by_log_alpha + 1] += hx;
+    v[by_log_alpha + 2] += hy;
+    v[by_log_alpha + 3] += hx * d.dx;
+    v[by_log_alpha + 4] += hx * d.dy;
+    v[by_log_alpha + 5] += hy * d.dy;
+  }
+  void write(const Sums& sums, std::size_t place) { sum_lanes(sums.value, out_[place]); }
+
+ private:
+  std::array<std::array<Lanes<float>, 8>, blocks> by_;
+  std::array<Lanes<float>, blocks> behind_;
+  SplatSums* out_;
+};
+
+/// The largest weight of each splat at a pixel with a measurement.
+template <int tile>
+class VisibilityPixels {
+ public:
+  static constexpr std::size_t blocks = TilePixels<tile>::blocks;
+  struct Sums {
+    Lanes<float> largest = 0.0F;
+  };
+  VisibilityPixels(const TilePixels<tile>& at, const Image<float>& measured, float* out) : out_(out) {
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (at.has_pixels(b)) counts_[b] = at.read(measured, b) > Lanes<float>(0.0F);
+  }
+  [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat&, const Transmittance::Drawn& d) {
+    sums.largest = max(sums.largest, select(counts_[b], d.weight, Lanes<float>(0.0F)));
+  }
+  void write(const Sums& sums, std::size_t place) {
+    const auto v = sums.largest.values();
+    out_[place] = *std::max_element(v.begin(), v.end());
+  }
+
+ private:
+  std::array<LaneMask, blocks> counts_;
+  float* out_;
+};
+
+/// For the Fisher information of the sum of a pixel's colours: with h its derivative by log alpha, the sums of h^2
+/// times 1, x, y, xx, xy, yy, xxx, ..., yyyy (dx, dy for x, y), and last that of w^2.
+template <int tile>
+class FisherPixels {
+ public:
+  static constexpr std::size_t blocks = TilePixels<tile>::blocks;
+  struct Sums {
+    std::array<Lanes<float>, 16> value;
+    Sums() { value.fill(Lanes<float>(0.0F)); }
+  };
+  FisherPixels(const TilePixels<tile>& at, const KeptSums* kept, SplatSums* out) : out_(out) {
+    for (std::size_t b = 0; b < blocks; ++b)
+      if (at.has_pixels(b)) behind_[b] = kept[b][sum_red] + kept[b][sum_green] + kept[b][sum_blue];
+  }
+  [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat& s, const Transmittance::Drawn& d) {
+    using L = Lanes<float>;
+    const float drawn = s.colour[0] + s.colour[1] + s.colour[2];
+    behind_[b] -= d.weight * drawn;
+    const L h = select(d.raw > L(0.99F), L(0), d.alpha * (d.before * drawn - behind_[b] / (1.0F - d.alpha)));
+    std::array<L, 5> row = {h * h};  // of one degree: x^n, x^(n - 1) y, ..., y^n
+    std::size_t j = 0;
+    for (std::size_t degree = 0; degree <= 4; ++degree) {
+      for (std::size_t k = 0; k <= degree; ++k) sums.value[j++] += row[k];
+      if (degree == 4) break;
+      row[degree + 1] = row[degree] * d.dy;
+      for (std::size_t k = 0; k <= degree; ++k) row[k] = row[k] * d.dx;
+    }
+    sums.value[15] += d.weight * d.weight;
+  }
+  void write(const Sums& sums, std::size_t place) { sum_lanes(sums.value, out_[place]); }
+
+ private:
+  std::array<Lanes<float>, blocks> behind_;
+  SplatSums* out_;
+};
+
+}  // namespace vantage
