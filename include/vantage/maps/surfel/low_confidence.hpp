@@ -32,7 +32,7 @@ struct LowConfidenceConfig {
   }
 };
 
-/// Voxels that hold many opaque surfels of low confidence and touch a free voxel (one of 26 neighbours), by their
+/// Voxels that hold many opaque surfels of low confidence and touch a free voxel (one of 6 neighbours), by their
 /// centres; the normal is the normalised mean of those surfels' normals, or, where these cancel out, up. In the order
 /// of x, then y, then z. O(surfels log surfels).
 template <VoxelOccupancy Voxels>
@@ -55,12 +55,12 @@ std::vector<Region> low_confidence_regions(const Surfels& surfels, const Voxels&
   }
   std::sort(low.begin(), low.end());
   const auto touches_free = [&](const Eigen::Vector3i& voxel) {
-    for (int x = -1; x <= 1; ++x)
-      for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z) {
-          const Eigen::Vector3i other = voxel + Eigen::Vector3i(x, y, z);
-          if (other != voxel && grid.contains(other) && voxels.state(other) == Space::free) return true;
-        }
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int step : {-1, 1}) {
+        Eigen::Vector3i other = voxel;
+        other[axis] += step;
+        if (grid.contains(other) && voxels.state(other) == Space::free) return true;
+      }
     return false;
   };
   std::vector<Region> found;

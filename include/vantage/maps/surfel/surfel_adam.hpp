@@ -75,26 +75,42 @@ class SurfelAdam {
   void step(Surfels& surfels, const SurfelGradient& gradient) {
     ++steps_;
     for (const std::uint32_t i : gradient.touched) awake_[i / block] = 1;
-    constexpr double beta1 = 0.9, beta2 = 0.999;
     const double unbias1 = 1 / (1 - std::pow(beta1, steps_)), unbias2 = 1 / (1 - std::pow(beta2, steps_));
     parallel_for(awake_.size(), [&](std::size_t b) {
       if (!awake_[b]) return;
-      using Map = Eigen::Map<Eigen::ArrayXf>;
       const std::size_t begin = b * block, count = std::min(block, surfels.size() - begin);
-      const auto n = static_cast<Eigen::Index>(count);
       for (std::size_t p = 0; p < surfel::parameters; ++p) {
-        const Eigen::Map<const Eigen::ArrayXf> g(gradient.parameter[p].data() + begin, n);
-        Map m(first_[p].data() + begin, n), v(second_[p].data() + begin, n);
-        Map x(surfels.parameter[p].data() + begin, n);
-        m = static_cast<float>(beta1) * m + static_cast<float>(1 - beta1) * g;
-        v = static_cast<float>(beta2) * v + static_cast<float>(1 - beta2) * g.square();
-        x -= static_cast<float>(rates_.of(p) * unbias1) * m /
-             ((static_cast<float>(unbias2) * v).sqrt() + static_cast<float>(rates_.epsilon));
+        const float* const g = gradient.parameter[p].data() + begin;
+        float *const m = first_[p].data() + begin, *const v = second_[p].data() + begin,
+                     *const x = surfels.parameter[p].data() + begin;
+        const auto rate = static_cast<float>(rates_.of(p) * unbias1);
+        std::size_t i = 0;
+        for (; i + lanes <= count; i += lanes) step(g + i, m + i, v + i, x + i, rate, static_cast<float>(unbias2));
+        if (i == count) continue;
+        std::array<float, lanes> last_g{}, last_x{};
+        std::copy(g + i, g + count, last_g.begin());
+        std::copy(x + i, x + count, last_x.begin());
+        step(last_g.data(), m + i, v + i, last_x.data(), rate, static_cast<float>(unbias2));
+        std::copy_n(last_x.begin(), count - i, x + i);
       }
     });
   }
 
  private:
+  static constexpr std::size_t lanes = 16;
+  static constexpr double beta1 = 0.9, beta2 = 0.999;
+
+  // Sixteen at once wherever they lie: which are computed together must not depend on where memory was found, since a
+  // vector's square root may round otherwise than a number's.
+  void step(const float* gradient, float* first, float* second, float* parameter, float rate, float unbias2) const {
+    using Sixteen = Eigen::Array<float, lanes, 1>;
+    const Eigen::Map<const Sixteen> g(gradient);
+    Eigen::Map<Sixteen> m(first), v(second), x(parameter);
+    m = static_cast<float>(beta1) * m + static_cast<float>(1 - beta1) * g;
+    v = static_cast<float>(beta2) * v + static_cast<float>(1 - beta2) * g.square();
+    x -= rate * m / ((unbias2 * v).sqrt() + static_cast<float>(rates_.epsilon));
+  }
+
   LearningRates rates_;
   int steps_ = 0;
   std::array<std::vector<float>, surfel::parameters> first_, second_;
