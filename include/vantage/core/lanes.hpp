@@ -35,8 +35,8 @@ struct Lanes {
   Native part[parts];  // std::array would drop the attribute
 
   Lanes() = default;
-  Lanes(T x) {  // NOLINT(google-explicit-constructor): a number is sixteen of it
-    for (Native& p : part) p = Native{} + x;
+  Lanes(T x) {                                // NOLINT(google-explicit-constructor): a number is sixteen of it
+    for (Native& p : part) p = x - Native{};  // 0 + x would be an addition: -0
   }
   static Lanes load(const T* from) {
     Lanes l;
@@ -152,7 +152,7 @@ Lanes<To> cast_bits(const Lanes<From>& a) {
 }
 
 /// 2^x to 2e-7 of it for x in [-126, 127]; outside, anything.
-inline Lanes<float> exp2_within(const Lanes<float>& x) {
+[[gnu::always_inline]] inline Lanes<float> exp2_within(const Lanes<float>& x) {
   const Lanes<float> shift = 0x1.8p23F, shifted = x + shift;  // rounds: the integer stands in the lowest bits
   const Lanes<float> f = x - (shifted - shift);               // in [-1/2, 1/2]
   Lanes<float> p = 1.535336188319500e-4F;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -60,13 +61,22 @@ struct TilePixels {
     if (image.size() != 0) each(b, [&](std::size_t l, Eigen::Index r, Eigen::Index c) { v[l] = image(r, c); });
     return Lanes<float>::load(v.data());
   }
-  void write(const Lanes<float>& values, std::size_t b, Image<float>& image) const {
-    const auto v = values.values();
-    if (is_whole(b)) {
-      for (int r = 0; r < 4; ++r) std::copy_n(v.data() + 4 * r, 4, &image(block_top(b) + r, block_left(b)));
-      return;
+  /// Row by row of the tile, so that a cache line of the image is written at once.
+  void write(const std::array<Lanes<float>, blocks>& values, Image<float>& image) const {
+    const int rows = std::min(tile, camera.height - top), columns = std::min(tile, camera.width - left);
+    for (int r = 0; r < rows; ++r) {
+      float* to = &image(top + r, left);
+      const std::size_t first = static_cast<std::size_t>(r / 4) * across, within = static_cast<std::size_t>(r % 4) * 4;
+      for (std::size_t b = 0; b < across; ++b) {
+        std::array<float, 4> four;
+        std::memcpy(four.data(), reinterpret_cast<const float*>(&values[first + b]) + within, sizeof(four));
+        const int at = 4 * static_cast<int>(b);
+        if (columns >= at + 4)
+          std::memcpy(to + at, four.data(), sizeof(four));
+        else
+          for (int c = at; c < columns; ++c) to[c] = four[static_cast<std::size_t>(c - at)];
+      }
     }
-    each(b, [&](std::size_t l, Eigen::Index r, Eigen::Index c) { image(r, c) = v[l]; });
   }
 };
 

@@ -73,7 +73,8 @@ class GradientPixels {
     Sums() { value.fill(Lanes<float>(0.0F)); }
   };
 
-  GradientPixels(const TilePixels<tile>& at, const ImageGradient& d, const KeptSums* kept, SplatSums* out) : out_(out) {
+  GradientPixels(const TilePixels<tile>& at, const ImageGradient& d, const KeptSums<tile>& kept, SplatSums* out)
+      : out_(out) {
     using L = Lanes<float>;
     for (std::size_t b = 0; b < blocks; ++b) {
       if (!at.has_pixels(b)) continue;
@@ -81,21 +82,20 @@ class GradientPixels {
       g = {at.read(d.colour.r, b), at.read(d.colour.g, b), at.read(d.colour.b, b), at.read(d.depth, b),
            at.read(d.normal_x, b), at.read(d.normal_y, b), at.read(d.normal_z, b), at.read(d.opacity, b)};
       // Depth is sum w z / sum w.
-      const KeptSums& sums = kept[b];
-      const L opacity = 1.0F - sums[light_left];
+      const L opacity = 1.0F - kept[light_left][b];
       const LaneMask drawn = opacity > L(1e-6F);
       L behind = 0.0F;
       if (d.depth.size() != 0) {
         g[3] = select(drawn, g[3] / max(opacity, L(1e-6F)), L(0));
-        g[7] -= select(drawn, g[3] * sums[sum_depth] / max(opacity, L(1e-6F)), L(0));
-        behind += g[3] * sums[sum_depth];
+        g[7] -= select(drawn, g[3] * kept[sum_depth][b] / max(opacity, L(1e-6F)), L(0));
+        behind += g[3] * kept[sum_depth][b];
       }
-      if (d.colour.r.size() != 0) behind += g[0] * sums[sum_red];
-      if (d.colour.g.size() != 0) behind += g[1] * sums[sum_green];
-      if (d.colour.b.size() != 0) behind += g[2] * sums[sum_blue];
-      if (d.normal_x.size() != 0) behind += g[4] * sums[sum_normal_x];
-      if (d.normal_y.size() != 0) behind += g[5] * sums[sum_normal_y];
-      if (d.normal_z.size() != 0) behind += g[6] * sums[sum_normal_z];
+      if (d.colour.r.size() != 0) behind += g[0] * kept[sum_red][b];
+      if (d.colour.g.size() != 0) behind += g[1] * kept[sum_green][b];
+      if (d.colour.b.size() != 0) behind += g[2] * kept[sum_blue][b];
+      if (d.normal_x.size() != 0) behind += g[4] * kept[sum_normal_x][b];
+      if (d.normal_y.size() != 0) behind += g[5] * kept[sum_normal_y][b];
+      if (d.normal_z.size() != 0) behind += g[6] * kept[sum_normal_z][b];
       behind_[b] = behind + g[7] * opacity;
     }
   }
@@ -169,9 +169,9 @@ class FisherPixels {
     std::array<Lanes<float>, 16> value;
     Sums() { value.fill(Lanes<float>(0.0F)); }
   };
-  FisherPixels(const TilePixels<tile>& at, const KeptSums* kept, SplatSums* out) : out_(out) {
+  FisherPixels(const TilePixels<tile>& at, const KeptSums<tile>& kept, SplatSums* out) : out_(out) {
     for (std::size_t b = 0; b < blocks; ++b)
-      if (at.has_pixels(b)) behind_[b] = kept[b][sum_red] + kept[b][sum_green] + kept[b][sum_blue];
+      if (at.has_pixels(b)) behind_[b] = kept[sum_red][b] + kept[sum_green][b] + kept[sum_blue][b];
   }
   [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat& s, const Transmittance::Drawn& d) {
     using L = Lanes<float>;
