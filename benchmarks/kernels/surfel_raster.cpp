@@ -57,10 +57,12 @@ void forward_backward(benchmark::State& state, std::size_t n, double sigma_m) {
   gradient.reset(s.size());
   const auto sign = [](const Image<float>& a, const Image<float>& b, float scale, Image<float>& to) {
     to.resize(a.rows(), a.cols());
-    for (Eigen::Index i = 0; i < a.size(); ++i) {
-      const float e = a.data()[i] - b.data()[i];
-      to.data()[i] = e > 0 ? scale : e < 0 ? -scale : 0;  // 0 for NaN, too
-    }
+    parallel_for_blocks(static_cast<std::size_t>(a.size()), 1 << 14, [&](std::size_t begin, std::size_t end) {
+      const float *p = a.data(), *q = b.data();
+      float* out = to.data();
+      for (std::size_t i = begin; i < end; ++i)
+        out[i] = p[i] > q[i] ? scale : p[i] < q[i] ? -scale : 0;  // 0 for NaN, too
+    });
   };
   for (auto _ : state) {
     gradient.reset(s.size());

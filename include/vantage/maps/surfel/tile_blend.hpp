@@ -130,7 +130,7 @@ class TileBlend {
     for (std::size_t k = 0; k < blend_sums; ++k) sums_[k][b] = sums[k];
   }
 
-  void write(BlendSum sum, KeptSums<tile>& kept, Image<float>& image) const {
+  void write(BlendSum sum, KeptSums<tile>& kept, Image<float>& image) {
     kept[sum] = sums_[sum];
     pixels_.write(sums_[sum], image);
   }
