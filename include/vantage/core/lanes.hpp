@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #include <immintrin.h>
@@ -35,8 +36,8 @@ struct Lanes {
   Native part[parts];  // std::array would drop the attribute
 
   Lanes() = default;
-  Lanes(T x) {  // NOLINT(google-explicit-constructor): a number is sixteen of it
-    for (Native& p : part) p = Native{} + x;
+  Lanes(T x) {                                // NOLINT(google-explicit-constructor): a number is sixteen of it
+    for (Native& p : part) p = x - Native{};  // 0 + x would be an addition: -0
   }
   static Lanes load(const T* from) {
     Lanes l;
@@ -50,6 +51,8 @@ struct Lanes {
     for (std::size_t i = 0; i < size; ++i) values[i] = f(i);
     return load(values.data());
   }
+  /// The sixteen numbers in memory.
+  [[nodiscard]] T* data() { return reinterpret_cast<T*>(part); }
   void store(T* to) const { std::memcpy(to, &part, sizeof(part)); }
   [[nodiscard]] std::array<T, size> values() const { return std::bit_cast<std::array<T, size>>(*this); }
 
@@ -151,8 +154,49 @@ Lanes<To> cast_bits(const Lanes<From>& a) {
   return std::bit_cast<Lanes<To>>(a);
 }
 
+/// Lane j of the result: the sum of the lanes of in[j], by a tree of additions.
+class LaneSums {
+ public:
+  static Lanes<float> of(const std::array<Lanes<float>, 16>& in) {
+    std::array<Native, 16> v;
+    for (std::size_t j = 0; j < 16; ++j) {
+      v[j].values = in[j].part[0];
+      for (std::size_t p = 1; p < Lanes<float>::parts; ++p) v[j].values += in[j].part[p];
+    }
+    fold<1>(v.data());
+    Lanes<float> out;
+    for (std::size_t p = 0; p < Lanes<float>::parts; ++p) out.part[p] = v[p].values;
+    return out;
+  }
+
+ private:
+  static constexpr std::size_t width = Lanes<float>::size / Lanes<float>::parts;
+  struct Native {
+    Lanes<float>::Native values;
+  };
+
+  // From pairs of vectors, whose lanes hold sums of `step` lanes for `step` inputs, half as many with twice of both.
+  template <std::size_t step>
+  static void fold(Native* v) {
+    if constexpr (step < width) {
+      for (std::size_t j = 0; j < 16 / step / 2; ++j)
+        v[j] = pair<step>(v[2 * j], v[2 * j + 1], std::make_index_sequence<width>());
+      fold<2 * step>(v);
+    }
+  }
+  template <std::size_t step, std::size_t... i>
+  static Native pair(const Native& a, const Native& b, std::index_sequence<i...>) {
+    return {__builtin_shufflevector(a.values, b.values, from<step>(i)...) +
+            __builtin_shufflevector(a.values, b.values, (from<step>(i) + static_cast<int>(step))...)};
+  }
+  template <std::size_t step>
+  static constexpr int from(std::size_t i) {
+    return static_cast<int>(i / (2 * step) * (2 * step) + i % step + (i / step % 2) * width);
+  }
+};
+
 /// 2^x to 2e-7 of it for x in [-126, 127]; outside, anything.
-inline Lanes<float> exp2_within(const Lanes<float>& x) {
+[[gnu::always_inline]] inline Lanes<float> exp2_within(const Lanes<float>& x) {
   const Lanes<float> shift = 0x1.8p23F, shifted = x + shift;  // rounds: the integer stands in the lowest bits
   const Lanes<float> f = x - (shifted - shift);               // in [-1/2, 1/2]
   Lanes<float> p = 1.535336188319500e-4F;

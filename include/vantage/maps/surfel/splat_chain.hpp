@@ -19,12 +19,15 @@ namespace vantage {
 /// Sixteen sums of sixteen splats, each added up over its tiles in their order; lanes beyond n are 0.
 inline std::array<Lanes<float>, 16> gather_sums(const TileBins& bins, std::span<const SplatSums> sums,
                                                 std::size_t first, std::size_t n) {
-  alignas(64) std::array<SplatSums, 16> total{};
-  for (std::size_t l = 0; l < n; ++l)
-    for (const std::uint32_t place : bins.places(static_cast<std::uint32_t>(first + l)))
-      for (std::size_t j = 0; j < 16; ++j) total[l][j] += sums[place][j];
+  std::array<SplatSums, 16> total;
+  for (std::size_t l = 0; l < 16; ++l) {
+    total[l] = SplatSums(0);
+    if (l >= n) continue;
+    for (const std::uint32_t place : bins.places(static_cast<std::uint32_t>(first + l))) total[l] += sums[place];
+  }
   std::array<Lanes<float>, 16> out;
-  for (std::size_t j = 0; j < 16; ++j) out[j] = Lanes<float>::generate([&](std::size_t l) { return total[l][j]; });
+  for (std::size_t j = 0; j < 16; ++j)
+    out[j] = Lanes<float>::generate([&](std::size_t l) { return total[l].data()[j]; });
   return out;
 }
 

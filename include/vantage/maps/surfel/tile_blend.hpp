@@ -30,8 +30,11 @@ enum BlendSum : std::size_t {
 };
 /// What backward needs of a forward: all but the confidence.
 inline constexpr std::size_t kept_sums = sum_confidence;
-using BlendSums = std::array<Lanes<float>, blend_sums>;
-using KeptSums = std::array<Lanes<float>, kept_sums>;
+/// Of a tile: one number a pixel, sub-block by sub-block.
+template <int tile>
+using TilePlane = std::array<Lanes<float>, TilePixels<tile>::blocks>;
+template <int tile>
+using KeptSums = std::array<TilePlane<tile>, kept_sums>;
 
 /// Draws the splats of a tile into the channels of R (eqs. 6.2, 6.3), sub-block by sub-block: its sums stay in
 /// registers while its own list of splats goes by.
@@ -45,8 +48,8 @@ class TileBlend {
       if (!pixels.has_pixels(b)) continue;
       open_ |= std::uint64_t{1} << b;
       light_[b] = Transmittance(pixels, b);
-      sums_[b].fill(Lanes<float>(0.0F));
     }
+    for (auto& sum : sums_) sum.fill(Lanes<float>(0.0F));
   }
 
   void draw(const VisibleSplats& from, std::span<const std::uint32_t> index) {
@@ -58,9 +61,36 @@ class TileBlend {
   }
 
   /// The channels' pixels, and what backward needs.
-  void write(R& out, KeptSums* kept) {
-    for (std::size_t b = 0; b < blocks; ++b)
-      if (pixels_.has_pixels(b)) write(b, out, kept[b]);
+  void write(R& out, KeptSums<tile>& kept) {
+    using L = Lanes<float>;
+    TilePlane<tile> opacity;
+    for (std::size_t b = 0; b < blocks; ++b) {
+      kept[light_left][b] = light_[b].left;
+      opacity[b] = 1.0F - light_[b].left;
+    }
+    if constexpr (draws<channel::Colour, R>) {
+      channel::Colour& c = out;
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t b = 0; b < blocks; ++b) sums_[sum_red + k][b] += light_[b].left * view_.background[k];
+      write(sum_red, kept, c.r);
+      write(sum_green, kept, c.g);
+      write(sum_blue, kept, c.b);
+    }
+    if constexpr (draws<channel::Depth, R>) {
+      kept[sum_depth] = sums_[sum_depth];
+      const L least = 1e-6F, nothing = std::numeric_limits<float>::quiet_NaN();
+      for (std::size_t b = 0; b < blocks; ++b)
+        sums_[sum_depth][b] = select(opacity[b] > least, sums_[sum_depth][b] / max(opacity[b], least), nothing);
+      pixels_.write(sums_[sum_depth], out.depth);
+    }
+    if constexpr (draws<channel::Normal, R>) {
+      channel::Normal& n = out;
+      write(sum_normal_x, kept, n.x);
+      write(sum_normal_y, kept, n.y);
+      write(sum_normal_z, kept, n.z);
+    }
+    if constexpr (draws<channel::Opacity, R>) pixels_.write(opacity, out.opacity);
+    if constexpr (draws<channel::Confidence, R>) pixels_.write(sums_[sum_confidence], out.confidence);
   }
 
  private:
@@ -79,7 +109,8 @@ class TileBlend {
   void draw(const TileSplats<tile>& splats, std::span<const std::uint8_t> list, std::size_t b) {
     const Lanes<float> x = pixels_.x(b), y = pixels_.y(b);
     Transmittance light = light_[b];
-    BlendSums sums = sums_[b];
+    std::array<Lanes<float>, blend_sums> sums;
+    for (std::size_t k = 0; k < blend_sums; ++k) sums[k] = sums_[k][b];
     for (const std::uint8_t i : list) {
       const PackedSplat& s = splats.splat[i];
       const Transmittance::Drawn d = light.draw(s, x, y);
@@ -96,42 +127,19 @@ class TileBlend {
       }
     }
     light_[b] = light;
-    sums_[b] = sums;
+    for (std::size_t k = 0; k < blend_sums; ++k) sums_[k][b] = sums[k];
   }
 
-  void write(std::size_t b, R& out, KeptSums& kept) {
-    using L = Lanes<float>;
-    const L left = light_[b].left, opacity = 1.0F - left;
-    BlendSums& sums = sums_[b];
-    kept[light_left] = left;
-    if constexpr (draws<channel::Colour, R>) {
-      channel::Colour& c = out;
-      for (std::size_t k = 0; k < 3; ++k) kept[sum_red + k] = sums[sum_red + k] += left * view_.background[k];
-      pixels_.write(sums[sum_red], b, c.r);
-      pixels_.write(sums[sum_green], b, c.g);
-      pixels_.write(sums[sum_blue], b, c.b);
-    }
-    if constexpr (draws<channel::Depth, R>) {
-      kept[sum_depth] = sums[sum_depth];
-      const L nothing = std::numeric_limits<float>::quiet_NaN();
-      pixels_.write(select(opacity > L(1e-6F), sums[sum_depth] / max(opacity, L(1e-6F)), nothing), b, out.depth);
-    }
-    if constexpr (draws<channel::Normal, R>) {
-      channel::Normal& n = out;
-      for (std::size_t k = 0; k < 3; ++k) kept[sum_normal_x + k] = sums[sum_normal_x + k];
-      pixels_.write(sums[sum_normal_x], b, n.x);
-      pixels_.write(sums[sum_normal_y], b, n.y);
-      pixels_.write(sums[sum_normal_z], b, n.z);
-    }
-    if constexpr (draws<channel::Opacity, R>) pixels_.write(opacity, b, out.opacity);
-    if constexpr (draws<channel::Confidence, R>) pixels_.write(sums[sum_confidence], b, out.confidence);
+  void write(BlendSum sum, KeptSums<tile>& kept, Image<float>& image) {
+    kept[sum] = sums_[sum];
+    pixels_.write(sums_[sum], image);
   }
 
   const RasterView& view_;
   const TilePixels<tile>& pixels_;
   std::uint64_t open_ = 0;
   std::array<Transmittance, blocks> light_;
-  std::array<BlendSums, blocks> sums_;
+  std::array<TilePlane<tile>, blend_sums> sums_;
 };
 
 }  // namespace vantage

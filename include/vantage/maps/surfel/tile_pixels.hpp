@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -54,19 +55,37 @@ struct TilePixels {
       for (int c = 0; c < columns; ++c)
         f(static_cast<std::size_t>(4 * r + c), Eigen::Index{block_top(b) + r}, Eigen::Index{block_left(b) + c});
   }
-  /// Pixels outside of the image, and those of an empty image, are 0.
-  [[nodiscard]] Lanes<float> read(const Image<float>& image, std::size_t b) const {
-    alignas(64) std::array<float, 16> v{};
-    if (image.size() != 0) each(b, [&](std::size_t l, Eigen::Index r, Eigen::Index c) { v[l] = image(r, c); });
-    return Lanes<float>::load(v.data());
+  /// Row by row of the tile, so that a cache line of the image is used at once. Pixels outside of the image, and those
+  /// of an empty image, are 0.
+  void read(const Image<float>& image, std::array<Lanes<float>, blocks>& values) const {
+    for (auto& v : values) v = Lanes<float>(0);
+    if (image.size() == 0) return;
+    each_four(values, [&](float* four, int n, int row, int column) {
+      if (n == 4)
+        std::memcpy(four, &image(row, column), 4 * sizeof(float));
+      else
+        std::copy_n(&image(row, column), n, four);
+    });
   }
-  void write(const Lanes<float>& values, std::size_t b, Image<float>& image) const {
-    const auto v = values.values();
-    if (is_whole(b)) {
-      for (int r = 0; r < 4; ++r) std::copy_n(v.data() + 4 * r, 4, &image(block_top(b) + r, block_left(b)));
-      return;
-    }
-    each(b, [&](std::size_t l, Eigen::Index r, Eigen::Index c) { image(r, c) = v[l]; });
+  void write(std::array<Lanes<float>, blocks>& values, Image<float>& image) const {
+    each_four(values, [&](const float* four, int n, int row, int column) {
+      if (n == 4)
+        std::memcpy(&image(row, column), four, 4 * sizeof(float));
+      else
+        std::copy_n(four, n, &image(row, column));
+    });
+  }
+
+ private:
+  // f(values, how many the image has, row, column) for the rows of sub-blocks, along the rows of the tile.
+  template <class F>
+  void each_four(std::array<Lanes<float>, blocks>& values, F&& f) const {
+    const int rows = std::min(tile, camera.height - top), columns = std::min(tile, camera.width - left);
+    for (int r = 0; r < rows; ++r)
+      for (int c = 0; c < columns; c += 4) {
+        const auto b = static_cast<std::size_t>(r / 4) * across + static_cast<std::size_t>(c / 4);
+        f(values[b].data() + 4 * (r % 4), std::min(4, columns - c), top + r, left + c);
+      }
   }
 };
 

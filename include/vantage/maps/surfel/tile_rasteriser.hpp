@@ -34,7 +34,7 @@ class TileRasteriser {
     friend class TileRasteriser;
     VisibleSplats splats_;
     TileBins bins_;
-    std::vector<KeptSums> kept_;  // of every sub-block, tile by tile
+    std::vector<KeptSums<tile>> kept_;  // of every tile
     std::vector<SplatSums> sums_;
     std::vector<float> largest_;
     std::vector<PoseGradient> pose_of_chunk_;
@@ -59,7 +59,7 @@ class TileRasteriser {
     if (gradient.is_touched.size() != s.size()) gradient.reset(s.size());
     pass.sums_.resize(pass.bins_.entries());
     sweep(view, pass, [&](std::size_t t, const TilePixels<tile>& at) {
-      return GradientPixels<tile, Depth>(at, d, kept(pass, t), pass.sums_.data() + pass.bins_.begin(t));
+      return GradientPixels<tile, Depth>(at, d, pass.kept_[t], pass.sums_.data() + pass.bins_.begin(t));
     });
     pose += add_gradient<Depth>(s, view, pass.splats_, pass.bins_, pass.sums_, gradient, pass.pose_of_chunk_);
     mark_touched(pass.splats_, gradient, pass.scratch_);
@@ -89,7 +89,7 @@ class TileRasteriser {
     blend(view, pass, colour);
     pass.sums_.resize(pass.bins_.entries());
     sweep(view, pass, [&](std::size_t t, const TilePixels<tile>& at) {
-      return FisherPixels<tile>(at, kept(pass, t), pass.sums_.data() + pass.bins_.begin(t));
+      return FisherPixels<tile>(at, pass.kept_[t], pass.sums_.data() + pass.bins_.begin(t));
     });
     add_fisher<Depth>(s, view, pass.splats_, pass.bins_, pass.sums_, diagonal);
   }
@@ -120,17 +120,16 @@ class TileRasteriser {
     pass.splats_.template project<Depth>(s, view);
     pass.bins_.template fill<tile>(pass.splats_, view.camera);
   }
-  static KeptSums* kept(Pass& pass, std::size_t t) { return pass.kept_.data() + t * TilePixels<tile>::blocks; }
 
   template <class R>
   static void blend(const RasterView& view, Pass& pass, R& out) {
     for_images(out, [&](Image<float>& image) { image.resize(view.camera.height, view.camera.width); });
-    pass.kept_.resize(pass.bins_.tiles() * TilePixels<tile>::blocks);
+    pass.kept_.resize(pass.bins_.tiles());
     parallel_for(pass.bins_.tiles(), [&](std::size_t t) {
       const TilePixels<tile> at(pass.bins_, t, view.camera);
       TileBlend<tile, Depth, R> blend(view, at);
       blend.draw(pass.splats_, pass.bins_.of(t));
-      blend.write(out, kept(pass, t));
+      blend.write(out, pass.kept_[t]);
     });
   }
   template <class Make>

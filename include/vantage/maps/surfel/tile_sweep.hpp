@@ -13,17 +13,7 @@
 namespace vantage {
 
 /// Sixteen numbers of one splat in one tile.
-using SplatSums = std::array<float, 16>;
-
-/// out[j] = sum over the lanes of in[j].
-inline void sum_lanes(const std::array<Lanes<float>, 16>& in, SplatSums& out) {
-  for (std::size_t j = 0; j < 16; ++j) {
-    const auto v = in[j].values();
-    std::array<float, 8> half;
-    for (std::size_t i = 0; i < 8; ++i) half[i] = v[i] + v[i + 8];
-    out[j] = ((half[0] + half[4]) + (half[2] + half[6])) + ((half[1] + half[5]) + (half[3] + half[7]));
-  }
-}
+using SplatSums = Lanes<float>;
 
 /// Draws the splats of a tile once more, splat by splat, so that what `Pixels` sums of one stays in registers until it
 /// has been drawn. `Pixels` offers Sums (made anew for every splat), add(sums, sub-block, splat, drawn) and
@@ -73,30 +63,28 @@ class GradientPixels {
     Sums() { value.fill(Lanes<float>(0.0F)); }
   };
 
-  GradientPixels(const TilePixels<tile>& at, const ImageGradient& d, const KeptSums* kept, SplatSums* out) : out_(out) {
+  GradientPixels(const TilePixels<tile>& at, const ImageGradient& d, const KeptSums<tile>& kept, SplatSums* out)
+      : out_(out) {
     using L = Lanes<float>;
-    for (std::size_t b = 0; b < blocks; ++b) {
-      if (!at.has_pixels(b)) continue;
-      auto& g = by_[b];
-      g = {at.read(d.colour.r, b), at.read(d.colour.g, b), at.read(d.colour.b, b), at.read(d.depth, b),
-           at.read(d.normal_x, b), at.read(d.normal_y, b), at.read(d.normal_z, b), at.read(d.opacity, b)};
-      // Depth is sum w z / sum w.
-      const KeptSums& sums = kept[b];
-      const L opacity = 1.0F - sums[light_left];
-      const LaneMask drawn = opacity > L(1e-6F);
-      L behind = 0.0F;
-      if (d.depth.size() != 0) {
-        g[3] = select(drawn, g[3] / max(opacity, L(1e-6F)), L(0));
-        g[7] -= select(drawn, g[3] * sums[sum_depth] / max(opacity, L(1e-6F)), L(0));
-        behind += g[3] * sums[sum_depth];
+    const std::array<const Image<float>*, 8> by = {&d.colour.r, &d.colour.g, &d.colour.b, &d.depth,
+                                                   &d.normal_x, &d.normal_y, &d.normal_z, &d.opacity};
+    for (auto& sum : behind_) sum = L(0);
+    for (std::size_t k = 0; k < by.size(); ++k) {
+      TilePlane<tile> g;
+      at.read(*by[k], g);
+      for (std::size_t b = 0; b < blocks; ++b) {
+        if (k == sum_depth) {  // sum w z / sum w
+          const L opacity = 1.0F - kept[light_left][b], least = 1e-6F;
+          g[b] = select(opacity > least, g[b] / max(opacity, least), L(0));
+        }
+        by_[b][k] = g[b];
+        if (k < light_left && by[k]->size() != 0) behind_[b] += g[b] * kept[k][b];
       }
-      if (d.colour.r.size() != 0) behind += g[0] * sums[sum_red];
-      if (d.colour.g.size() != 0) behind += g[1] * sums[sum_green];
-      if (d.colour.b.size() != 0) behind += g[2] * sums[sum_blue];
-      if (d.normal_x.size() != 0) behind += g[4] * sums[sum_normal_x];
-      if (d.normal_y.size() != 0) behind += g[5] * sums[sum_normal_y];
-      if (d.normal_z.size() != 0) behind += g[6] * sums[sum_normal_z];
-      behind_[b] = behind + g[7] * opacity;
+    }
+    for (std::size_t b = 0; b < blocks; ++b) {
+      const L opacity = 1.0F - kept[light_left][b];
+      if (d.depth.size() != 0) by_[b][light_left] -= by_[b][sum_depth] * kept[sum_depth][b] / max(opacity, L(1e-6F));
+      behind_[b] += by_[b][light_left] * opacity;
     }
   }
 
@@ -126,7 +114,7 @@ class GradientPixels {
     v[by_log_alpha + 4] += hx * d.dy;
     v[by_log_alpha + 5] += hy * d.dy;
   }
-  void write(const Sums& sums, std::size_t place) { sum_lanes(sums.value, out_[place]); }
+  void write(const Sums& sums, std::size_t place) { out_[place] = LaneSums::of(sums.value); }
 
  private:
   std::array<std::array<Lanes<float>, 8>, blocks> by_;
@@ -143,8 +131,9 @@ class VisibilityPixels {
     Lanes<float> largest = 0.0F;
   };
   VisibilityPixels(const TilePixels<tile>& at, const Image<float>& measured, float* out) : out_(out) {
-    for (std::size_t b = 0; b < blocks; ++b)
-      if (at.has_pixels(b)) counts_[b] = at.read(measured, b) > Lanes<float>(0.0F);
+    TilePlane<tile> depth;
+    at.read(measured, depth);
+    for (std::size_t b = 0; b < blocks; ++b) counts_[b] = depth[b] > Lanes<float>(0.0F);
   }
   [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat&, const Transmittance::Drawn& d) {
     sums.largest = max(sums.largest, select(counts_[b], d.weight, Lanes<float>(0.0F)));
@@ -169,9 +158,8 @@ class FisherPixels {
     std::array<Lanes<float>, 16> value;
     Sums() { value.fill(Lanes<float>(0.0F)); }
   };
-  FisherPixels(const TilePixels<tile>& at, const KeptSums* kept, SplatSums* out) : out_(out) {
-    for (std::size_t b = 0; b < blocks; ++b)
-      if (at.has_pixels(b)) behind_[b] = kept[b][sum_red] + kept[b][sum_green] + kept[b][sum_blue];
+  FisherPixels(const TilePixels<tile>& at, const KeptSums<tile>& kept, SplatSums* out) : out_(out) {
+    for (std::size_t b = 0; b < blocks; ++b) behind_[b] = kept[sum_red][b] + kept[sum_green][b] + kept[sum_blue][b];
   }
   [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat& s, const Transmittance::Drawn& d) {
     using L = Lanes<float>;
@@ -188,7 +176,7 @@ class FisherPixels {
     }
     sums.value[15] += d.weight * d.weight;
   }
-  void write(const Sums& sums, std::size_t place) { sum_lanes(sums.value, out_[place]); }
+  void write(const Sums& sums, std::size_t place) { out_[place] = LaneSums::of(sums.value); }
 
  private:
   std::array<Lanes<float>, blocks> behind_;
