@@ -182,7 +182,8 @@ class SurfelMap {
     if (signature != this->signature())
       throw Error(source.where(), concat("a map of another kind: ", signature.substr(0, 200)), this->signature());
     const auto taken = source.get<std::uint64_t>();
-    Surfels surfels{.scale = surfels_.scale};
+    Surfels surfels;
+    surfels.scale = surfels_.scale;
     for (auto& values : surfels.parameter) source.get(values);
     source.get(surfels.confidence);
     std::vector<float> state;
