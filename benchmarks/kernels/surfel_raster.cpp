@@ -59,9 +59,9 @@ void forward_backward(benchmark::State& state, std::size_t n, double sigma_m) {
     to.resize(a.rows(), a.cols());
     parallel_for_blocks(static_cast<std::size_t>(a.size()), 1 << 14, [&](std::size_t begin, std::size_t end) {
       const float *p = a.data(), *q = b.data();
-      float* out = to.data();
+      float* into = to.data();
       for (std::size_t i = begin; i < end; ++i)
-        out[i] = p[i] > q[i] ? scale : p[i] < q[i] ? -scale : 0;  // 0 for NaN, too
+        into[i] = p[i] > q[i] ? scale : p[i] < q[i] ? -scale : 0;  // 0 for NaN, too
     });
   };
   for (auto _ : state) {

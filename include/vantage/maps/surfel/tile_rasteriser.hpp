@@ -88,8 +88,8 @@ class TileRasteriser {
     Rendering<channel::Colour> colour;
     blend(view, pass, colour);
     pass.sums_.resize(pass.bins_.entries());
-    sweep(view, pass, [&](std::size_t t, const TilePixels<tile>& at) {
-      return FisherPixels<tile>(at, pass.kept_[t], pass.sums_.data() + pass.bins_.begin(t));
+    sweep(view, pass, [&](std::size_t t, const TilePixels<tile>&) {
+      return FisherPixels<tile>(pass.kept_[t], pass.sums_.data() + pass.bins_.begin(t));
     });
     add_fisher<Depth>(s, view, pass.splats_, pass.bins_, pass.sums_, diagonal);
   }

@@ -158,7 +158,7 @@ class FisherPixels {
     std::array<Lanes<float>, 16> value;
     Sums() { value.fill(Lanes<float>(0.0F)); }
   };
-  FisherPixels(const TilePixels<tile>& at, const KeptSums<tile>& kept, SplatSums* out) : out_(out) {
+  FisherPixels(const KeptSums<tile>& kept, SplatSums* out) : out_(out) {
     for (std::size_t b = 0; b < blocks; ++b) behind_[b] = kept[sum_red][b] + kept[sum_green][b] + kept[sum_blue][b];
   }
   [[gnu::always_inline]] void add(Sums& sums, std::size_t b, const PackedSplat& s, const Transmittance::Drawn& d) {
