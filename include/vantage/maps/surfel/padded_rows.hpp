@@ -37,4 +37,18 @@ class PaddedRows {
   Image<T> data_;
 };
 
+// Eigen computes a row without vectors as soon as an expression compares, so comparisons stand alone, as loops that
+// compilers vectorise.
+
+/// 1 where a row is above a bound, else 0 (also for NaN). Rows of n, apart or the same.
+template <class T>
+void mark_above(const T* from, T bound, Eigen::Index n, T* to) {
+  for (Eigen::Index i = 0; i < n; ++i) to[i] = from[i] > bound ? T(1) : T(0);
+}
+/// -1, 0 or 1.
+template <class T>
+void take_sign(const T* from, Eigen::Index n, T* to) {
+  for (Eigen::Index i = 0; i < n; ++i) to[i] = (from[i] > 0 ? T(1) : T(0)) - (from[i] < 0 ? T(1) : T(0));
+}
+
 }  // namespace vantage

@@ -66,13 +66,18 @@ class DepthNormalRows {
     inverse = n.x.square() + n.y.square() + n.z.square();
     // 1 / |S|, and 0 for 0: the least that is normal, so that neither overflows.
     constexpr T least = std::numeric_limits<T>::min();
-    inverse = (inverse > least).template cast<T>() * (inverse + least).rsqrt();
+    there_.resize(width);
+    mark_above<T>(inverse.data(), least, width, there_.data());
+    inverse = there_ * (inverse + least).rsqrt();
     n.x *= inverse, n.y *= inverse, n.z *= inverse;
   }
 
   Vectors n;     ///< unit normals, or 0
   Vectors a, b;  ///< Pu - Pd and Pl - Pr
   Row inverse;   ///< 1 / |S|
+
+ private:
+  Row there_;
 };
 
 }  // namespace vantage

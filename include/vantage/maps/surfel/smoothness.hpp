@@ -3,6 +3,8 @@
 #pragma once
 #include <string_view>
 
+#include <vantage/maps/surfel/padded_rows.hpp>
+
 namespace vantage {
 
 // How much neighbouring normals differ, for pairs of pixels in rows: (x, y, z) their difference, `step_m` that of the
@@ -23,11 +25,13 @@ struct EdgeAwareVariation {
   void operator()(Row& x, Row& y, Row& z, const Step& step_m, Row& penalty, Row& factor) const {
     using T = typename Row::Scalar;
     constexpr T width = T(0.18);
+    factor = step_m.square();
+    mark_above<T>(factor.data(), T(1e-4), factor.size(), factor.data());
     penalty = x.square() + y.square() + z.square();
-    factor = (step_m.square() <= T(1e-4)).template cast<T>() * (penalty * (-1 / width)).exp();
-    const auto slope = (2 * factor * (1 - penalty * (1 / width))).eval();
-    penalty *= factor;
+    factor = (1 - factor) * (penalty * (-1 / width)).exp();
+    const auto slope = 2 * factor * (1 - penalty * (1 / width));
     x *= slope, y *= slope, z *= slope;
+    penalty *= factor;
   }
 };
 
@@ -39,7 +43,7 @@ struct PlainVariation {
   template <class Row, class Step>
   void operator()(Row& x, Row& y, Row& z, const Step&, Row& penalty, Row&) const {
     penalty = x.abs() + y.abs() + z.abs();
-    x = x.sign(), y = y.sign(), z = z.sign();
+    for (Row* r : {&x, &y, &z}) take_sign(r->data(), r->size(), r->data());
   }
 };
 

@@ -166,18 +166,20 @@ class SurfelLoss {
         for (Eigen::Index p = 0; p < planes; ++p) rows(p, r).setZero();
         return;
       }
-      const auto opacity = drawn.opacity.row(v);
-      rows(valid, r) = (opacity > T(0.01)).template cast<T>();
-      rows(counts, r) = (opacity > T(1e-3)).template cast<T>();
-      const T* from = drawn.depth.data() + v * drawn.depth.cols();
-      T* to = rows(depth, r).data();
-      for (Eigen::Index u = 0; u < rows.width(); ++u) to[u] = from[u] > 0 ? from[u] : 0;
+      const Eigen::Index width = rows.width();
+      const T* const opacity = drawn.opacity.data() + v * width;
+      mark_above<T>(opacity, T(0.01), width, rows(valid, r).data());
+      mark_above<T>(opacity, T(1e-3), width, rows(counts, r).data());
+      const T* const from = drawn.depth.data() + v * width;
+      T* const to = rows(depth, r).data();
+      for (Eigen::Index u = 0; u < width; ++u) to[u] = from[u] > 0 ? from[u] : 0;
       target.depth(v, rows(star, r).data());
-      rows(measured, r) = (rows(star, r) > T(0)).template cast<T>();
+      mark_above<T>(rows(star, r).data(), T(0), width, rows(measured, r).data());
       const auto x = drawn.x.row(v), y = drawn.y.row(v), z = drawn.z.row(v);
       constexpr T least = std::numeric_limits<T>::min();
       weight = x.square() + y.square() + z.square();
-      rows(length, r) = rows(valid, r) * (weight > least).template cast<T>() * (weight + least).rsqrt();
+      mark_above<T>(weight.data(), least, width, rows(length, r).data());
+      rows(length, r) *= rows(valid, r) * (weight + least).rsqrt();
       rows(nx, r) = x * rows(length, r);
       rows(ny, r) = y * rows(length, r);
       rows(nz, r) = z * rows(length, r);
@@ -263,8 +265,10 @@ class SurfelLoss {
       weight.resize(rows.width());
       target.colour(channel, v, weight.data());
       weight = drawn.row(v) - weight;
-      gradient.row(v) = static_cast<T>(weights.colour / (3 * pixels)) * weight.sign() * rows(counts, r);
-      return static_cast<double>((weight.abs() * rows(counts, r)).sum()) / (3 * pixels);
+      const auto sum = static_cast<double>((weight.abs() * rows(counts, r)).sum());
+      take_sign(weight.data(), rows.width(), weight.data());
+      gradient.row(v) = static_cast<T>(weights.colour / (3 * pixels)) * weight * rows(counts, r);
+      return sum / (3 * pixels);
     }
   };
 
