@@ -28,6 +28,7 @@ using CoverageMaps = SuiteOf<PersistentMaps, need::Coverage>;
 using FieldMaps = SuiteOf<PersistentMaps, need::Field>;
 using OccupancyMaps = SuiteOf<PersistentMaps, need::Occupancy>;
 using RegionMaps = SuiteOf<PersistentMaps, need::Regions<frontier>>;
+using LowConfidenceMaps = SuiteOf<PersistentMaps, need::Regions<low_confidence>>;
 using FisherMaps = SuiteOf<PersistentMaps, need::Fisher>;
 
 template <class M>
@@ -305,6 +306,19 @@ TYPED_TEST(RegionMapContract, RegionsHaveUnitNormals) {
       ++found;
     }
   EXPECT_GT(found, 0u);
+}
+
+template <class M>
+class LowConfidenceMapContract : public testing::Test {};
+TYPED_TEST_SUITE(LowConfidenceMapContract, LowConfidenceMaps);
+
+TYPED_TEST(LowConfidenceMapContract, RegionsAreVoxelsOfTheGridWithUnitNormals) {
+  EXPECT_TRUE(after<TypeParam>(0).regions(low_confidence{}).empty());
+  const TypeParam map = after<TypeParam>(measured);
+  for (const Region& r : map.regions(low_confidence{})) {
+    EXPECT_TRUE(map.bounds().contains(r.centre));
+    EXPECT_NEAR(r.normal.norm(), 1, 1e-9);
+  }
 }
 
 template <class M>

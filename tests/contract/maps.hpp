@@ -20,10 +20,11 @@
 #include <vantage/maps/field/latent.hpp>
 #include <vantage/maps/field/matern.hpp>
 #include <vantage/maps/field/methods.hpp>
+#include <vantage/maps/surfel/surfel_presets.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
 
-#include "lists.hpp"
 #include "../voxel_scenes.hpp"
+#include "lists.hpp"
 
 // Every map, and how to try it. A new map is one line in a list and a MapFixture; the contract suites, the matrix and
 // the static product follow.
@@ -43,9 +44,10 @@ using LatentMap = Ours<preset::thesis, Latent<>>;
 using PublishedVoxels = VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>;
 using MaternMap = IntegralGp<Matern32>;
 
-using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap,
-                  OursMap, Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>,
-                  VoxelMap<>, PublishedVoxels, VoxelMap<RayCast, ClassCounts<5>>>;
+using Maps =
+    List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
+         Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>, VoxelMap<>,
+         PublishedVoxels, VoxelMap<RayCast, ClassCounts<5>>, ActiveGsMap<>, ActiveGsMap<preset::thesis>>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
 /// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
 /// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether
@@ -140,25 +142,18 @@ struct RoomWorld {
   std::uint64_t seed = 0;
   std::optional<Frame> observe(const View& view) {
     Frame f = random_frame(Rng(seed++), 40);
-    f.depth = observe_room(view, f.camera).depth;
+    Frame seen = observe_room(view, f.camera);
+    f.depth = std::move(seen.depth);
+    f.colour = std::move(seen.colour);
     f.view = view;
     return f;
   }
 };
 
-template <class Update, class Semantics, class Clearance>
-struct MapFixture<VoxelMap<Update, Semantics, Clearance>> {
-  using M = VoxelMap<Update, Semantics, Clearance>;
+/// Maps of frames of the small room.
+struct RoomFixture {
   using World = RoomWorld;
   static constexpr bool looks_down_only = false;
-  static M make(double voxel_m = 0.1) {
-    typename M::Config c;
-    c.bounds = small_room;
-    c.voxel_m = voxel_m;
-    c.clearance_m = 0.15;
-    return M(c);
-  }
-  static M large() { return make(0.03); }
   static Frame measurement(std::size_t k) { return random_frame(Rng(11).fork(k), 40); }
   static std::vector<std::pair<std::string, Frame>> refused() {
     const Frame good = measurement(1);
@@ -185,6 +180,37 @@ struct MapFixture<VoxelMap<Update, Semantics, Clearance>> {
         all.push_back(
             look_at(eye, eye + Eigen::Vector3d(std::cos(k * deg(45)), std::sin(k * deg(45)), std::tan(pitch_rad))));
     return all;
+  }
+};
+
+template <class Update, class Semantics, class Clearance>
+struct MapFixture<VoxelMap<Update, Semantics, Clearance>> : RoomFixture {
+  using M = VoxelMap<Update, Semantics, Clearance>;
+  static M make(double voxel_m = 0.1) {
+    typename M::Config c;
+    c.bounds = small_room;
+    c.voxel_m = voxel_m;
+    c.clearance_m = 0.15;
+    return M(c);
+  }
+  static M large() { return make(0.03); }
+};
+
+template <class Rasteriser, class Confidence, class Variation, class Voxels>
+struct MapFixture<SurfelMap<Rasteriser, Confidence, Variation, Voxels>> : RoomFixture {
+  using M = SurfelMap<Rasteriser, Confidence, Variation, Voxels>;
+  static M make() {
+    typename M::Config c;
+    c.voxels = MapFixture<Voxels>::make().config();
+    c.iterations = 2;
+    return M(c);
+  }
+  static std::vector<std::pair<std::string, Frame>> refused() {
+    auto bad = RoomFixture::refused();
+    bad.emplace_back("no colour", measurement(1)).second.colour = {};
+    bad.emplace_back("colour above 1", measurement(1)).second.colour.g(3, 4) = 1.5F;
+    bad.emplace_back("NaN colour", measurement(1)).second.colour.r(3, 4) = std::numeric_limits<float>::quiet_NaN();
+    return bad;
   }
 };
 

@@ -30,6 +30,8 @@
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
+#include <vantage/utility/confidence_exploration.hpp>
+#include <vantage/utility/fisher_information.hpp>
 #include <vantage/utility/information_gain.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
 #include <vantage/utility/ray_entropy.hpp>
@@ -45,10 +47,11 @@
 namespace vantage::test {
 
 using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
-                       Uninformed, Unexplored, RayEntropy, InformationGain, archetype::ViewUtility,
-                       archetype::HistoryUtility, archetype::PreparedUtility>;
-using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, Local, Frontier, RoiAndLocal<frontier>, ViewTree,
-                      UtilityWeighted<Lattice>, Level<Frontier>, archetype::Sampler>;
+                       Uninformed, Unexplored, RayEntropy, InformationGain, ConfidenceExploration<>, FisherInformation,
+                       archetype::ViewUtility, archetype::HistoryUtility, archetype::PreparedUtility>;
+using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, Local, Frontier, RoiAndLocal<frontier>,
+                      RoiAndLocal<frontier, low_confidence>, ViewTree, UtilityWeighted<Lattice>, Level<Frontier>,
+                      archetype::Sampler>;
 using Selectors = List<ArgMax, InOrder, FirstOfBranch, PerFlightTime, MinusCost<>, TravelTradeoff<>,
                        MinusCost<archetype::Router>, archetype::Selector>;
 using Routers = List<StraightLine, AStar, Shortcut<AStar>, archetype::Router>;
@@ -61,8 +64,9 @@ P make() {
   const Box2 field = Lattice::field_20m();
   if constexpr (std::same_as<P, MeanUncertainty> || std::same_as<P, RayEntropy> || std::same_as<P, InformationGain>)
     return P(Camera::from_fov(8, 6, deg(60)));
-  else if constexpr (std::same_as<P, Unexplored>)
-    return Unexplored({.camera = Camera::from_fov(16, 12, deg(60))});
+  else if constexpr (std::same_as<P, Unexplored> || std::same_as<P, ConfidenceExploration<>> ||
+                     std::same_as<P, FisherInformation>)
+    return P({.camera = Camera::from_fov(16, 12, deg(60))});
   else if constexpr (std::same_as<P, Lattice>)
     return Lattice({.layers = {Layer::inside(field, 2, 5, 4), Layer::inside(field, 5, 2, 3)}});
   else if constexpr (std::same_as<P, Lawnmower>)

@@ -9,6 +9,7 @@
 #include <vantage/loop/carry.hpp>
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
+#include <vantage/maps/surfel/surfel_presets.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
 
 // The capability table: what each map offers, and what it does not. A map that gains or loses a capability by accident
@@ -74,6 +75,18 @@ static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, ClassCount
 static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
               !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
 static_assert(ForetellsRefusal<VoxelMap<>> && Posed<VoxelMap<>::Measurement>);
+
+// Surfels: colour, depth and confidence in any combination; what their voxels know; both kinds of regions.
+template <class M>
+constexpr bool surfel_map =
+    offers_just<M, Uncertainty, Depth, Coverage, Occupancy, Voxels, Navigable, Frontier, LowConfidence, Fisher>&&
+        Persistent<M>&& RefinableMap<M>&& ForetellsRefusal<M>;
+static_assert(surfel_map<ActiveGsMap<>> && surfel_map<ActiveGsMap<preset::thesis>>);
+static_assert(surfel_map<ActiveGsMap<preset::reference, ViewCountConfidence>>);
+static_assert(Renders<ActiveGsMap<>, channel::Colour, channel::Depth, channel::Opacity, channel::Normal,
+                      channel::Confidence, channel::Uncertainty> &&
+              Renders<ActiveGsMap<>, channel::Depth, channel::Confidence> &&
+              !Renders<ActiveGsMap<>, channel::Entropy> && !Renders<ActiveGsMap<>, channel::Depth, channel::Entropy>);
 
 // What is no map: each lacks one thing.
 struct WithoutMeasurement {

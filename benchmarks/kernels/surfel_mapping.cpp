@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: 2026 The vantage authors
+// SPDX-License-Identifier: MIT
+// The mapping step of the surfel map and its parts, on a furnished room of 300 k surfels. mapping_step is 10 iterations
+// on 8 of 20 frames of 512 x 512 px, 60 degrees, a step of Adam after each: all that training does. Items are pixels
+// (training: pixels of all frames), of adam surfels.
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "kernels/surfel_input.hpp"
+#include "peak.hpp"
+
+#include <vantage/maps/surfel/densify.hpp>
+#include <vantage/maps/surfel/surfel_trainer.hpp>
+#include <vantage/maps/surfel/tile_rasteriser.hpp>
+
+namespace {
+
+using namespace vantage;
+using Raster = TileRasteriser<>;
+
+constexpr int pixels = 512;
+
+// What a camera in the middle of the room sees of the surfels, in so many directions: as a frame.
+Frame frame(const Surfels& s, int k, int of) {
+  const double heading = 6.2831853 * k / of;
+  Frame f;
+  f.camera = Camera::from_fov(pixels, pixels, deg(60));
+  f.view = look_at({2.2, 2.4, 1.5}, {2.2 + std::cos(heading), 2.4 + std::sin(heading), 1.3});
+  Raster::Pass pass;
+  Rendering<channel::Colour, channel::Depth> drawn;
+  Raster().forward(s, {.view = f.view, .camera = f.camera}, pass, drawn);
+  Rng rng(7);
+  f.depth = drawn.depth;
+  for (Eigen::Index i = 0; i < f.depth.size(); ++i) f.depth.data()[i] *= static_cast<float>(1 + 0.01 * rng.normal());
+  for (auto plane : {&ColourImage::r, &ColourImage::g, &ColourImage::b}) {
+    f.colour.*plane = (static_cast<const ColourImage&>(drawn).*plane).max(0.0F).min(1.0F);
+  }
+  return f;
+}
+
+void mapping_step(benchmark::State& state, std::size_t n) {
+  const Surfels truth = bench::room_surfels(n, 0.01, 2);
+  std::vector<TrainingFrame> frames;
+  for (int k = 0; k < 20; ++k) frames.emplace_back(frame(truth, k, 20));
+  Surfels s = bench::room_surfels(n);
+  SurfelTrainer<Raster, EdgeAwareVariation> train({}, {});
+  Raster::Pass pass;
+  Rng rng(1);
+  for (auto _ : state) train(s, frames, {}, 10, Raster(), pass, rng);
+  state.SetItemsProcessed(state.iterations() * 10 * 8 * pixels * pixels);
+}
+
+void loss(benchmark::State& state) {
+  const Surfels s = bench::room_surfels(300000);
+  const TrainingFrame f(frame(bench::room_surfels(300000, 0.01, 2), 1, 4));
+  Raster::Pass pass;
+  TrainingImages drawn;
+  Raster().forward(s, {.view = f.view, .camera = f.camera}, pass, drawn);
+  const SurfelLoss<> loss;
+  ImageGradient gradient;
+  for (auto _ : state) benchmark::DoNotOptimize(loss(f.camera, drawn, f, gradient));
+  state.SetItemsProcessed(state.iterations() * pixels * pixels);
+}
+
+void normals(benchmark::State& state) {
+  const Frame f = frame(bench::room_surfels(300000), 1, 4);
+  for (auto _ : state) benchmark::DoNotOptimize(normals_of(bilateral_filter(f.depth), f.camera));
+  state.SetItemsProcessed(state.iterations() * pixels * pixels);
+}
+
+// Every eighth block of surfels untouched, as if the cameras had not seen them.
+void adam(benchmark::State& state, std::size_t n) {
+  Surfels s = bench::room_surfels(n);
+  SurfelGradient gradient;
+  gradient.reset(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i / SurfelAdam::block % 8 == 0) continue;
+    gradient.touched.push_back(static_cast<std::uint32_t>(i));
+    for (auto& p : gradient.parameter) p[i] = 1e-3F * static_cast<float>(i % 7);
+  }
+  SurfelAdam adam;
+  adam.restart(n);
+  for (auto _ : state) adam.step(s, gradient);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(gradient.touched.size()));
+}
+
+void densify_all(benchmark::State& state) {
+  const Frame f = frame(bench::room_surfels(300000), 1, 4);
+  TrainingImages nothing;
+  Raster::Pass pass;
+  Raster().forward(Surfels{}, {.view = f.view, .camera = f.camera}, pass, nothing);
+  std::size_t spawned = 0;
+  for (auto _ : state) {
+    Surfels s;
+    Rng rng(1);
+    spawned = densify(s, f, nothing, {}, rng);
+  }
+  state.counters["spawned"] = static_cast<double>(spawned);
+  state.SetItemsProcessed(state.iterations() * pixels * pixels);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  const auto add = [](const char* name, auto&& kernel) {
+    benchmark::RegisterBenchmark(name, kernel)->Unit(benchmark::kMillisecond)->UseRealTime();
+  };
+  add("surfel/mapping_step/300k", [](benchmark::State& s) { mapping_step(s, 300000); });
+  add("surfel/loss/512", loss);
+  add("surfel/normals/512", normals);
+  add("surfel/densify_first/512", densify_all);
+  add("surfel/adam/300k", [](benchmark::State& s) { adam(s, 300000); });
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}
