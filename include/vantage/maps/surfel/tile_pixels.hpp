@@ -80,12 +80,18 @@ struct TilePixels {
   // f(values, how many the image has, row, column) for the rows of sub-blocks, along the rows of the tile.
   template <class F>
   void each_four(std::array<Lanes<float>, blocks>& values, F&& f) const {
+    const auto four = [&](int r, int c, int n) {
+      const auto b = static_cast<std::size_t>(r / 4) * across + static_cast<std::size_t>(c / 4);
+      f(values[b].data() + 4 * (r % 4), n, top + r, left + c);
+    };
     const int rows = std::min(tile, camera.height - top), columns = std::min(tile, camera.width - left);
+    if (columns == tile) {  // what the compiler unrolls
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < tile; c += 4) four(r, c, 4);
+      return;
+    }
     for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; c += 4) {
-        const auto b = static_cast<std::size_t>(r / 4) * across + static_cast<std::size_t>(c / 4);
-        f(values[b].data() + 4 * (r % 4), std::min(4, columns - c), top + r, left + c);
-      }
+      for (int c = 0; c < columns; c += 4) four(r, c, std::min(4, columns - c));
   }
 };
 
