@@ -18,14 +18,14 @@ namespace vantage {
 /// The least of xx dx^2 + xy dx dy + yy dy^2 over the rectangle x0 <= dx <= x1, y0 <= dy <= y1: 0 if it holds the
 /// centre, else on one of the two sides that face it.
 template <class T>
-T least_over_box(const T& xx, const T& xy, const T& yy, const T& x0, const T& x1, const T& y0, const T& y1) {
+T least_over_box(float xx, float xy, float yy, const T& x0, const T& x1, const T& y0, const T& y1) {
   using std::max;
   using std::min;
-  const T zero = T(0), half = T(ScalarOf<T>(0.5));
-  const T dx = min(max(zero, x0), x1), dy = min(max(zero, y0), y1);
-  const T along_y = min(max(-half * xy * dx / yy, y0), y1), along_x = min(max(-half * xy * dy / xx, x0), x1);
-  const T at_x = xx * dx * dx + xy * dx * along_y + yy * along_y * along_y;
-  const T at_y = xx * along_x * along_x + xy * along_x * dy + yy * dy * dy;
+  const T zero = T(0), dx = min(max(zero, x0), x1), dy = min(max(zero, y0), y1);
+  const float y_of_x = -0.5F * xy / yy, x_of_y = -0.5F * xy / xx;  // where the form is least on a line
+  const T along_y = min(max(y_of_x * dx, y0), y1), along_x = min(max(x_of_y * dy, x0), x1);
+  const T at_x = dx * (xx * dx + xy * along_y) + yy * along_y * along_y;
+  const T at_y = along_x * (xx * along_x + xy * dy) + yy * dy * dy;
   return min(at_x, at_y);
 }
 /// How far below a splat's opacity (base 2) it is still drawn; a hair more, for rounding.

@@ -80,12 +80,18 @@ struct TilePixels {
   // f(values, how many the image has, row, column) for the rows of sub-blocks, along the rows of the tile.
   template <class F>
   void each_four(std::array<Lanes<float>, blocks>& values, F&& f) const {
+    const auto four = [&](int r, int c, int n) {
+      const auto b = static_cast<std::size_t>(r / 4) * across + static_cast<std::size_t>(c / 4);
+      f(values[b].data() + 4 * (r % 4), n, top + r, left + c);
+    };
     const int rows = std::min(tile, camera.height - top), columns = std::min(tile, camera.width - left);
+    if (columns == tile) {  // what the compiler unrolls
+      for (int r = 0; r < rows; ++r)
+        for (int c = 0; c < tile; c += 4) four(r, c, 4);
+      return;
+    }
     for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; c += 4) {
-        const auto b = static_cast<std::size_t>(r / 4) * across + static_cast<std::size_t>(c / 4);
-        f(values[b].data() + 4 * (r % 4), std::min(4, columns - c), top + r, left + c);
-      }
+      for (int c = 0; c < columns; c += 4) four(r, c, std::min(4, columns - c));
   }
 };
 
@@ -102,7 +108,10 @@ struct TileSplats {
   void load(const VisibleSplats& from, std::span<const std::uint32_t> index, const TilePixels<tile>& pixels) {
     n = index.size();
     constexpr std::size_t across = TilePixels<tile>::across;
+    constexpr std::size_t ahead = 8;  // splats come from all over memory
+    for (std::size_t i = 0; i < std::min(ahead, n); ++i) __builtin_prefetch(&from.splat[index[i]]);
     for (std::size_t i = 0; i < n; ++i) {
+      if (i + ahead < n) __builtin_prefetch(&from.splat[index[i + ahead]]);
       const PackedSplat& s = splat[i] = from.splat[index[i]];
       reach[i] = 0;
       for (std::size_t first = 0; first < blocks; first += 16) {
@@ -111,7 +120,7 @@ struct TileSplats {
                      (static_cast<float>(pixels.left) - s.u);
         const L y0 = L::generate([&](std::size_t l) { return static_cast<float>(4 * ((first + l) / across)); }) +
                      (static_cast<float>(pixels.top) - s.v);
-        const L least = least_over_box(L(s.xx), L(s.xy), L(s.yy), x0, x0 + 3.0F, y0, y0 + 3.0F);
+        const L least = least_over_box(s.xx, s.xy, s.yy, x0, x0 + 3.0F, y0, y0 + 3.0F);
         reach[i] |= std::uint64_t{bits(least <= L(drawn_reach(s)))} << first;
       }
       if constexpr (blocks < 16) reach[i] &= (1U << blocks) - 1;
