@@ -52,6 +52,7 @@ const SurfelMap<>& seen(int frames) {
   c.voxels.bounds = Box3(Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(6.1, 5.1, 2.7));
   c.iterations = 0;
   c.prune.every_frames = 1000;
+  c.densify.spacing_m = 0.03;  // untrained surfels are spawned again by every frame: about 300 k in the end
   SurfelMap<> untrained(c);
   const Surfels truth = bench::room_surfels(300000, 0.01, 2);
   Rng rng(1);
@@ -60,6 +61,7 @@ const SurfelMap<>& seen(int frames) {
   untrained.save(sink);
   c.iterations = 10;
   c.prune.every_frames = 5;
+  c.densify.spacing_m = 0.02;
   SurfelMap<>& map = made.try_emplace(frames, c).first->second;
   Source source(sink.bytes());
   map.load(source);
