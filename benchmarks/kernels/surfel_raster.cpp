@@ -144,9 +144,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   const auto add = [](const std::string& name, auto kernel) {
-    benchmark::RegisterBenchmark(("surfel/" + name).c_str(), kernel)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime();
+    benchmark::RegisterBenchmark(("surfel/" + name).c_str(), kernel)->Unit(benchmark::kMillisecond)->UseRealTime();
   };
   for (const std::size_t n : {10000, 30000, 100000, 300000, 1000000, 3000000})
     add("forward/" + thousands(n), [n](benchmark::State& s) { forward<Training>(s, n, 0.01, 512); });
