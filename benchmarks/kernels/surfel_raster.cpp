@@ -7,6 +7,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "kernels/surfel_input.hpp"
 #include "peak.hpp"
@@ -101,6 +102,40 @@ void bin_and_sort(benchmark::State& state, std::size_t n) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(bins.entries()));
 }
 
+// Tiles into images, projected and dealt before.
+void blend(benchmark::State& state, std::size_t n) {
+  const RasterView view = bench::room_view(512);
+  VisibleSplats splats;
+  splats.project<LinearDepth>(surfels(n, 0.01), view);
+  TileBins bins;
+  bins.fill<16>(splats, view.camera);
+  Training out;
+  for_images(out, [](Image<float>& image) { image.resize(512, 512); });
+  std::vector<KeptSums<16>> kept(bins.tiles());
+  for (auto _ : state)
+    parallel_for(bins.tiles(), [&](std::size_t t) {
+      const TilePixels<16> at(bins, t, view.camera);
+      TileBlend<16, LinearDepth, Training> tile(view, at);
+      tile.draw(splats, bins.of(t));
+      tile.write(out, kept[t]);
+    });
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(bins.entries()));
+}
+
+// From the images' derivatives to the surfels'.
+void backward(benchmark::State& state, std::size_t n) {
+  const Surfels& s = surfels(n, 0.01);
+  const RasterView view = bench::room_view(512);
+  Raster::Pass pass;
+  Training out;
+  Raster().forward(s, view, pass, out);
+  const Image<float> by = Image<float>::Constant(512, 512, 1e-6F);
+  const ImageGradient d{{by, by, by}, by, {}, by, by, by};
+  SurfelGradient gradient;
+  for (auto _ : state) Raster().backward(s, view, pass, d, gradient);
+  count(state, view, pass);
+}
+
 std::string thousands(std::size_t n) { return n < 1000000 ? concat(n / 1000, "k") : concat(n / 1000000, "M"); }
 
 }  // namespace
@@ -109,10 +144,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   const auto add = [](const std::string& name, auto kernel) {
-    benchmark::RegisterBenchmark(("surfel/" + name).c_str(), kernel)
-        ->Unit(benchmark::kMillisecond)
-        ->UseRealTime()
-        ->MeasureProcessCPUTime();
+    benchmark::RegisterBenchmark(("surfel/" + name).c_str(), kernel)->Unit(benchmark::kMillisecond)->UseRealTime();
   };
   for (const std::size_t n : {10000, 30000, 100000, 300000, 1000000, 3000000})
     add("forward/" + thousands(n), [n](benchmark::State& s) { forward<Training>(s, n, 0.01, 512); });
@@ -122,6 +154,8 @@ int main(int argc, char** argv) {
   add("forward_planning/300k", [](benchmark::State& s) { forward<Planning>(s, 300000, 0.01, 128); });
   add("project/300k", [](benchmark::State& s) { project(s, 300000); });
   add("bin_and_sort/300k", [](benchmark::State& s) { bin_and_sort(s, 300000); });
+  add("blend/300k", [](benchmark::State& s) { blend(s, 300000); });
+  add("backward/300k", [](benchmark::State& s) { backward(s, 300000); });
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
 }

@@ -131,6 +131,15 @@ inline std::uint32_t bits(const LaneMask& mask) {
 /// Whether any lane is set.
 inline bool any(const LaneMask& mask) { return bits(mask) != 0; }
 
+/// Where all hold: for masks of lanes, and for single numbers.
+template <class M, class... Ms>
+M all_hold(const M& first, const Ms&... rest) {
+  if constexpr (std::same_as<M, bool>)
+    return (first && ... && rest);
+  else
+    return (first & ... & rest);
+}
+
 /// b where a is not a number.
 template <class T>
 Lanes<T> min(const Lanes<T>& a, const Lanes<T>& b) {

@@ -307,6 +307,14 @@ TYPED_TEST(SurfelRaster, RefusesWhatItCannotDraw) {
   d.depth.setZero(3, 3);
   SurfelGradient g;
   EXPECT_REFUSED((raster.backward(s, view, pass, d, g), 0), "gradient by depth");
+  d.depth.setZero(10, 20);
+  Rendering<channel::Colour> colour;
+  raster.forward(s, view, pass, colour);
+  EXPECT_REFUSED((raster.backward(s, view, pass, d, g), 0), "did not draw");
+  std::vector<float> weight(s.size()), few(3);
+  EXPECT_REFUSED((raster.visibility(s, view, pass, d.depth, few), 0), "weight has 3");
+  raster.visibility(s, view, pass, d.depth, weight);
+  EXPECT_REFUSED((raster.backward(s, view, pass, {}, g), 0), "no forward");
 }
 
 }  // namespace

@@ -69,9 +69,9 @@ struct Projector {
   template <class T>
   auto in_sight(const std::array<T, 3>& p, const std::array<T, 2>& uv) const {
     const auto inside = [&](std::size_t i) {
-      return (uv[i] >= T(S(-0.2) * size[i] - S(0.5))) & (uv[i] <= T(S(1.2) * size[i] - S(0.5)));
+      return all_hold(uv[i] >= T(S(-0.2) * size[i] - S(0.5)), uv[i] <= T(S(1.2) * size[i] - S(0.5)));
     };
-    return (p[2] >= T(0)) & inside(0) & inside(1);
+    return all_hold(p[2] >= T(0), inside(0), inside(1));
   }
 };
 
@@ -187,10 +187,11 @@ auto is_drawn(const Projector<S>& camera, const surfel::Parameters<T>& in, const
   };
   const T step = T(S(1e-3)), largest = T(S(1e30));
   const T facing_m = dot(s.p, s.axis[2]);
-  return seen(s.ray[0] + step, s.ray[1]) & seen(s.ray[0], s.ray[1] + step) &
-         (abs(s.slope[0]) + abs(s.slope[1]) + s.covariance[0] + s.covariance[2] + s.conic[0] + s.conic[2] <= largest) &
-         (abs(in[surfel::red]) + abs(in[surfel::green]) + abs(in[surfel::blue]) + abs(confidence) <= largest) &
-         (s.opacity >= T(0)) & (facing_m <= (camera.front_only ? T(S(-0.01)) : largest));
+  return all_hold(
+      seen(s.ray[0] + step, s.ray[1]), seen(s.ray[0], s.ray[1] + step),
+      abs(s.slope[0]) + abs(s.slope[1]) + s.covariance[0] + s.covariance[2] + s.conic[0] + s.conic[2] <= largest,
+      abs(in[surfel::red]) + abs(in[surfel::green]) + abs(in[surfel::blue]) + abs(confidence) <= largest,
+      s.opacity >= T(0), facing_m <= (camera.front_only ? T(S(-0.01)) : largest));
 }
 
 /// The chain rule through `project`.
@@ -223,7 +224,7 @@ SurfelChain<T> chain(const Projector<S>& camera, const surfel::Parameters<T>& in
       const T d = camera.f[k] * over_z * d_semi[k], d_scaled = d * s.scale_m[i];
       d_axis[i][k] += d_scaled;
       d_axis[i][2] -= d_scaled * s.held[k];
-      const auto free = (s.ray[k] > T(camera.nearest[k])) & (s.ray[k] < T(camera.furthest[k]));
+      const auto free = all_hold(s.ray[k] > T(camera.nearest[k]), s.ray[k] < T(camera.furthest[k]));
       d_ray[k] -= select(free, d_scaled * s.axis[i][2], zero);
       d_p[2] -= d_semi[k] * s.semi[i][k] * over_z;
       d_scale += d * (s.axis[i][k] - s.held[k] * s.axis[i][2]);

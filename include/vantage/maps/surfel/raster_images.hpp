@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <string_view>
 #include <type_traits>
 
@@ -48,6 +49,9 @@ inline void check_image_size(const Image<float>& image, const Camera& camera, st
   if (image.size() != 0 && (image.rows() != camera.height || image.cols() != camera.width))
     throw Error(where, concat(name, " is ", image.cols(), " x ", image.rows(), " px"),
                 concat(camera.width, " x ", camera.height));
+}
+inline void check_length(std::size_t found, std::size_t expected, std::string_view where, std::string_view name) {
+  if (found != expected) throw Error(where, concat(name, " has ", found, " values"), concat(expected));
 }
 inline void check_gradient_sizes(const ImageGradient& d, const Camera& camera, std::string_view where) {
   check_image_size(d.colour.r, camera, where, "the gradient by red");

@@ -92,6 +92,8 @@ class ReferenceRasteriser {
   void backward(const Surfels& s, const RasterView& view, Pass& pass, const ImageGradient& d, SurfelGradient& gradient,
                 PoseGradient& pose) const {
     check_gradient_sizes(d, view.camera, "ReferenceRasteriser::backward");
+    if (pass.transmittance.rows() != view.camera.height || pass.transmittance.cols() != view.camera.width)
+      throw Error("ReferenceRasteriser::backward", "the pass holds no forward of this view", "forward first");
     if (gradient.is_touched.size() != s.size()) gradient.reset(s.size());
     std::vector<SplatGradient<Scalar>> splat(pass.splat.size(), SplatGradient<Scalar>{});
     std::vector<std::array<Scalar, 3>> colour(pass.splat.size(), std::array<Scalar, 3>{});
@@ -136,6 +138,7 @@ class ReferenceRasteriser {
   void visibility(const Surfels& s, const RasterView& view, Pass& pass, const Image<float>& measured,
                   std::span<float> weight) const {
     check_image_size(measured, view.camera, "ReferenceRasteriser::visibility", "the measured depth");
+    check_length(weight.size(), s.size(), "ReferenceRasteriser::visibility", "weight");
     prepare(s, view, pass);
     std::vector<Contribution> list;
     for (int v = 0; v < measured.rows(); ++v)
@@ -151,6 +154,7 @@ class ReferenceRasteriser {
 
   /// Surfel-major, surfel::parameters numbers each; those of the rotation are left as they are (FisherRF).
   void fisher(const Surfels& s, const RasterView& view, Pass& pass, std::span<double> diagonal) const {
+    check_length(diagonal.size(), surfel::parameters * s.size(), "ReferenceRasteriser::fisher", "diagonal");
     prepare(s, view, pass);
     const Projector<Scalar> camera(view, s.scale);
     std::vector<Contribution> list;

@@ -38,7 +38,7 @@ class DepthNormalRows {
   using Row = Eigen::Array<T, 1, Eigen::Dynamic>;
   struct Vectors {
     Row x, y, z;
-    void resize(Eigen::Index n) { x.resize(n), y.resize(n), z.resize(n); }
+    void resize(Eigen::Index size) { x.resize(size), y.resize(size), z.resize(size); }
   };
 
   /// The normals of row `row` of `rows`, whose planes `depth` [m, 0 where not valid] and `valid` (1 or 0) hold the rows

@@ -36,24 +36,18 @@ struct TilePixels {
   [[nodiscard]] bool has_pixels(std::size_t b) const {
     return block_left(b) < camera.width && block_top(b) < camera.height;
   }
-  [[nodiscard]] bool is_whole(std::size_t b) const {
-    return block_left(b) + 4 <= camera.width && block_top(b) + 4 <= camera.height;
-  }
   [[nodiscard]] Lanes<float> x(std::size_t b) const {
-    return Lanes<float>::generate([](std::size_t l) { return static_cast<float>(l % 4); }) +
-           static_cast<float>(block_left(b));
+    const int column = block_left(b);
+    return Lanes<float>::generate([=](std::size_t l) { return static_cast<float>(column + static_cast<int>(l % 4)); });
   }
   [[nodiscard]] Lanes<float> y(std::size_t b) const {
-    return Lanes<float>::generate([](std::size_t l) { return static_cast<float>(l / 4); }) +
-           static_cast<float>(block_top(b));
+    const int row = block_top(b);
+    return Lanes<float>::generate([=](std::size_t l) { return static_cast<float>(row + static_cast<int>(l / 4)); });
   }
-  /// f(lane, row, column) for the pixels of a sub-block that the image has.
-  template <class F>
-  void each(std::size_t b, F&& f) const {
-    const int columns = std::min(4, camera.width - block_left(b)), rows = std::min(4, camera.height - block_top(b));
-    for (int r = 0; r < rows; ++r)
-      for (int c = 0; c < columns; ++c)
-        f(static_cast<std::size_t>(4 * r + c), Eigen::Index{block_top(b) + r}, Eigen::Index{block_left(b) + c});
+  /// In each lane whether the image has that pixel.
+  [[nodiscard]] LaneMask in_image(std::size_t b) const {
+    const auto width = static_cast<float>(camera.width), height = static_cast<float>(camera.height);
+    return all_hold(x(b) < Lanes<float>(width), y(b) < Lanes<float>(height));
   }
   /// Row by row of the tile, so that a cache line of the image is used at once. Pixels outside of the image, and those
   /// of an empty image, are 0.
@@ -118,7 +112,7 @@ struct TileSplats {
         using L = Lanes<float>;
         const L x0 = L::generate([&](std::size_t l) { return static_cast<float>(4 * ((first + l) % across)); }) +
                      (static_cast<float>(pixels.left) - s.u);
-        const L y0 = L::generate([&](std::size_t l) { return static_cast<float>(4 * ((first + l) / across)); }) +
+        const L y0 = L::generate([&](std::size_t l) { return static_cast<float>((first + l) / across * 4); }) +
                      (static_cast<float>(pixels.top) - s.v);
         const L least = least_over_box(s.xx, s.xy, s.yy, x0, x0 + 3.0F, y0, y0 + 3.0F);
         reach[i] |= std::uint64_t{bits(least <= L(drawn_reach(s)))} << first;
@@ -136,11 +130,7 @@ struct Transmittance {
   Transmittance() = default;
   template <int tile>
   Transmittance(const TilePixels<tile>& pixels, std::size_t b) {
-    if (pixels.is_whole(b)) return;
-    alignas(64) std::array<float, 16> v;
-    v.fill(never);
-    pixels.each(b, [&](std::size_t l, Eigen::Index, Eigen::Index) { v[l] = log2_least_alpha; });
-    least = Lanes<float>::load(v.data());
+    least = select(pixels.in_image(b), least, Lanes<float>(never));
   }
   [[nodiscard]] bool full() const { return !any(least < Lanes<float>(never)); }
 

@@ -34,6 +34,9 @@ class TileRasteriser {
     friend class TileRasteriser;
     VisibleSplats splats_;
     TileBins bins_;
+    std::size_t surfels_ = 0;
+    Camera camera_;
+    bool has_drawn_ = false, colour_ = false, depth_ = false, normal_ = false;
     std::vector<KeptSums<tile>> kept_;  // of every tile
     std::vector<SplatSums> sums_;
     std::vector<float> largest_;
@@ -55,7 +58,7 @@ class TileRasteriser {
   }
   void backward(const Surfels& s, const RasterView& view, Pass& pass, const ImageGradient& d, SurfelGradient& gradient,
                 PoseGradient& pose) const {
-    check_gradient_sizes(d, view.camera, "TileRasteriser::backward");
+    check_backward(s, view, pass, d);
     if (gradient.is_touched.size() != s.size()) gradient.reset(s.size());
     pass.sums_.resize(pass.bins_.entries());
     sweep(view, pass, [&](std::size_t t, const TilePixels<tile>& at) {
@@ -68,6 +71,7 @@ class TileRasteriser {
   void visibility(const Surfels& s, const RasterView& view, Pass& pass, const Image<float>& measured,
                   std::span<float> weight) const {
     check_image_size(measured, view.camera, "TileRasteriser::visibility", "the measured depth");
+    check_length(weight.size(), s.size(), "TileRasteriser::visibility", "weight");
     prepare(s, view, pass);
     pass.largest_.resize(pass.bins_.entries());
     sweep(view, pass, [&](std::size_t t, const TilePixels<tile>& at) {
@@ -84,6 +88,7 @@ class TileRasteriser {
 
   /// Surfel-major, surfel::parameters numbers each; those of the rotation are left as they are (FisherRF).
   void fisher(const Surfels& s, const RasterView& view, Pass& pass, std::span<double> diagonal) const {
+    check_length(diagonal.size(), surfel::parameters * s.size(), "TileRasteriser::fisher", "diagonal");
     prepare(s, view, pass);
     Rendering<channel::Colour> colour;
     blend(view, pass, colour);
@@ -115,8 +120,24 @@ class TileRasteriser {
     std::size_t* total;
   };
 
+  static void check_backward(const Surfels& s, const RasterView& view, const Pass& pass, const ImageGradient& d) {
+    constexpr const char* where = "TileRasteriser::backward";
+    check_gradient_sizes(d, view.camera, where);
+    if (!pass.has_drawn_ || pass.surfels_ != s.size() || pass.camera_.width != view.camera.width ||
+        pass.camera_.height != view.camera.height)
+      throw Error(where, "the pass holds no forward of these surfels and view", "forward first");
+    if ((d.colour.r.size() + d.colour.g.size() + d.colour.b.size() > 0 && !pass.colour_) ||
+        (d.depth.size() > 0 && !pass.depth_) ||
+        (d.normal_x.size() + d.normal_y.size() + d.normal_z.size() > 0 && !pass.normal_))
+      throw Error(where, "a gradient by a channel that forward did not draw",
+                  "Colour, Depth or Normal in its rendering");
+  }
+
   static void prepare(const Surfels& s, const RasterView& view, Pass& pass) {
     check_raster_input(s, view, "TileRasteriser");
+    pass.has_drawn_ = false;
+    pass.surfels_ = s.size();
+    pass.camera_ = view.camera;
     pass.splats_.template project<Depth>(s, view);
     pass.bins_.template fill<tile>(pass.splats_, view.camera);
   }
@@ -131,6 +152,10 @@ class TileRasteriser {
       blend.draw(pass.splats_, pass.bins_.of(t));
       blend.write(out, pass.kept_[t]);
     });
+    pass.has_drawn_ = true;
+    pass.colour_ = draws<channel::Colour, R>;
+    pass.depth_ = draws<channel::Depth, R>;
+    pass.normal_ = draws<channel::Normal, R>;
   }
   template <class Make>
   static void sweep(const RasterView& view, Pass& pass, Make&& make) {

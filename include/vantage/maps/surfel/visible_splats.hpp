@@ -56,7 +56,7 @@ class VisibleSplats {
     const Projector<float> camera(view, s.scale);
     find_in_sight(s, camera);
     const std::size_t chunks = (in_sight_.size() + chunk - 1) / chunk;
-    for (auto* counts : {&count_}) counts->assign(chunks, 0);
+    count_.assign(chunks, 0);
     resize(chunks * chunk);
     parallel_for(chunks, [&](std::size_t c) {
       const std::size_t end = std::min(in_sight_.size(), (c + 1) * chunk);
@@ -128,12 +128,10 @@ class VisibleSplats {
     constexpr float to_natural = 2 * 0.693147180559945F;
     const L width = sqrt(max(reach, L(0)) * to_natural * at.covariance[0]) + 1e-3F,
             height = sqrt(max(reach, L(0)) * to_natural * at.covariance[2]) + 1e-3F;
-    const auto first_pixel = [](const L& low, float) { return max(low, L(0)).values(); };
+    const auto first_pixel = [](const L& low) { return max(low, L(0)).values(); };
     const auto last_pixel = [](const L& high, float size) { return min(high, L(size - 1)).values(); };
-    const auto x0 = first_pixel(at.centre[0] - width, camera.size[0]),
-               x1 = last_pixel(at.centre[0] + width, camera.size[0]),
-               y0 = first_pixel(at.centre[1] - height, camera.size[1]),
-               y1 = last_pixel(at.centre[1] + height, camera.size[1]);
+    const auto x0 = first_pixel(at.centre[0] - width), x1 = last_pixel(at.centre[0] + width, camera.size[0]),
+               y0 = first_pixel(at.centre[1] - height), y1 = last_pixel(at.centre[1] + height, camera.size[1]);
     constexpr float log2_e = 1.44269504088896F;
     const std::array<std::array<float, 16>, 16> packed = {at.centre[0].values(),
                                                           at.centre[1].values(),
@@ -151,7 +149,7 @@ class VisibleSplats {
                                                           at.axis[2][1].values(),
                                                           at.axis[2][2].values(),
                                                           confidence.values()};
-    const std::uint32_t drawn = bits(is_drawn(camera, in, confidence, at) & (reach >= L(0)));
+    const std::uint32_t drawn = bits(all_hold(is_drawn(camera, in, confidence, at), reach >= L(0)));
     for (std::size_t l = 0; l < n; ++l) {
       if ((drawn >> l & 1U) == 0) continue;
       const float left = std::ceil(x0[l]), right = std::floor(x1[l]), top = std::ceil(y0[l]),
