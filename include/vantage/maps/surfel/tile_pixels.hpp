@@ -112,7 +112,10 @@ struct TileSplats {
         using L = Lanes<float>;
         const L x0 = L::generate([&](std::size_t l) { return static_cast<float>(4 * ((first + l) % across)); }) +
                      (static_cast<float>(pixels.left) - s.u);
-        const L y0 = L::generate([&](std::size_t l) { return static_cast<float>((first + l) / across * 4); }) +
+        const L y0 = L::generate([&](std::size_t l) {
+                       const std::size_t row = (first + l) / across;
+                       return static_cast<float>(4 * row);
+                     }) +
                      (static_cast<float>(pixels.top) - s.v);
         const L least = least_over_box(s.xx, s.xy, s.yy, x0, x0 + 3.0F, y0, y0 + 3.0F);
         reach[i] |= std::uint64_t{bits(least <= L(drawn_reach(s)))} << first;

@@ -41,6 +41,7 @@ class TileRasteriser {
     std::vector<SplatSums> sums_;
     std::vector<float> largest_;
     std::vector<PoseGradient> pose_of_chunk_;
+    Rendering<channel::Colour> colour_image_;  // of fisher
     std::vector<std::uint32_t> scratch_;
   };
 
@@ -90,8 +91,7 @@ class TileRasteriser {
   void fisher(const Surfels& s, const RasterView& view, Pass& pass, std::span<double> diagonal) const {
     check_length(diagonal.size(), surfel::parameters * s.size(), "TileRasteriser::fisher", "diagonal");
     prepare(s, view, pass);
-    Rendering<channel::Colour> colour;
-    blend(view, pass, colour);
+    blend(view, pass, pass.colour_image_);
     pass.sums_.resize(pass.bins_.entries());
     sweep(view, pass, [&](std::size_t t, const TilePixels<tile>&) {
       return FisherPixels<tile>(pass.kept_[t], pass.sums_.data() + pass.bins_.begin(t));
