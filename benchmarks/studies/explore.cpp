@@ -16,6 +16,7 @@
 #include <vantage/mission/plot.hpp>
 #include <vantage/sim/rgbd_world.hpp>
 
+#include "homes.hpp"
 #include "scene/explorer.hpp"
 #include "scene/referee.hpp"
 #include "statistics.hpp"
@@ -37,17 +38,6 @@ struct ExploreOptions : Options {
   [[nodiscard]] double budget_s() const { return quick ? std::min(budget, 120.0) : budget; }
   [[nodiscard]] std::size_t scene_count() const { return quick ? 1 : scenes.size(); }
 };
-
-/// Every home that examples/data/fetch_scenes got.
-std::vector<std::filesystem::path> fetched_scenes() {
-  const std::filesystem::path folder = scene::default_scene().parent_path();
-  std::vector<std::filesystem::path> found;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    if (std::filesystem::exists(entry.path() / "scene.json")) found.push_back(entry.path());
-  std::ranges::sort(found);
-  return found;
-}
 
 std::vector<Unit> plan_units(const ExploreOptions& o) {
   std::vector<Unit> units;

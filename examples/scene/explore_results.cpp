@@ -10,85 +10,12 @@
 
 #include <vantage/eval/mesh_metrics.hpp>
 #include <vantage/io/file.hpp>
-#include <vantage/mission/canvas.hpp>
 
+#include "flight.hpp"
 #include "page.hpp"
 
 namespace scene {
 namespace {
-
-constexpr Rgb ink = {20, 20, 20}, blue = {0, 114, 178}, red = {214, 69, 61};
-
-/// The map from above after a step, with the way flown until then and the views taken.
-Picture from_above(const Referee::Growth& growth, const Referee& referee, const MissionRecord& record, int longer_px) {
-  Canvas canvas(referee.growth().back().plan.known(), longer_px);
-  growth.plan.fill(canvas);
-  const double scale = longer_px / 1000.0;
-  std::size_t flown = 0;
-  for (const StepRecord& r : record.steps) {
-    if (r.index > growth.step || !r.planned) continue;
-    const std::vector<View>& path = referee.paths()[flown++];
-    for (std::size_t k = 1; k < path.size(); ++k)
-      canvas.line(path[k - 1].position().head<2>(), path[k].position().head<2>(), 3 * scale, blue, 0.8);
-  }
-  for (const StepRecord& r : record.steps) {
-    if (r.index > growth.step) continue;
-    const Eigen::Vector2d spot = r.view.position().head<2>(), ahead = r.view.forward().head<2>();
-    canvas.line(spot, spot + 20 * scale / canvas.px_per_m() * ahead, 2.4 * scale, ink, 0.9);
-    canvas.dot(spot, (r.planned ? 4.5 : 8) * scale, r.planned ? blue : ink);
-  }
-  return canvas.picture();
-}
-
-/// Four moments of the mission side by side.
-Picture growth_strip(const Referee& referee, const MissionRecord& record) {
-  const std::vector<Referee::Growth>& growth = referee.growth();
-  constexpr int gap = 12;
-  std::vector<Picture> parts;
-  for (std::size_t k = 1; k <= 4; ++k)
-    parts.push_back(from_above(growth[(growth.size() - 1) * k / 4], referee, record, 480));
-  Picture all(4 * parts[0].width() + 3 * gap, parts[0].height());
-  for (int y = 0; y < all.height(); ++y)
-    for (int x = 0; x < all.width(); ++x) all(y, x) = {255, 255, 255};
-  for (std::size_t k = 0; k < parts.size(); ++k)
-    for (int y = 0; y < parts[k].height(); ++y)
-      for (int x = 0; x < parts[k].width(); ++x)
-        all(y, x + static_cast<int>(k) * (parts[k].width() + gap)) = parts[k](y, x);
-  return all;
-}
-
-/// Surface that was seen (grey) and that was not (red), from above.
-Picture seen_surface(const Input& input, const Referee& referee) {
-  const SurfaceCoverage& truth = *referee.fused().truth();
-  Canvas canvas(Box2(input.bounds.min().head<2>(), input.bounds.max().head<2>()), 1000);
-  canvas.fill([](const Eigen::Vector2d&) { return Rgb{250, 250, 248}; });
-  const double ceiling_m = input.bounds.max().z() - 0.3, floor_m = input.bounds.min().z() + 0.1;
-  for (const bool seen : {true, false})
-    for (std::size_t i = 0; i < truth.surface().size(); ++i) {
-      const Eigen::Vector3d p = truth.surface().points[i].cast<double>();
-      if ((truth.seen()[i] != 0) != seen || p.z() > ceiling_m || p.z() < floor_m) continue;
-      canvas.dot(p.head<2>(), 1.1, seen ? Rgb{120, 128, 136} : red, seen ? 0.25 : 0.7);
-    }
-  return canvas.picture();
-}
-
-/// The way as the robot flew it: a row a waypoint.
-std::string path_csv(const Referee& referee) {
-  std::string csv = "leg,x_m,y_m,z_m,yaw_rad\n";
-  for (std::size_t leg = 0; leg < referee.paths().size(); ++leg)
-    for (const View& v : referee.paths()[leg]) {
-      const Eigen::Vector3d p = v.position(), f = v.forward();
-      csv += concat(leg + 1, ',', p.x(), ',', p.y(), ',', p.z(), ',', std::atan2(f.y(), f.x()), '\n');
-    }
-  return csv;
-}
-
-double least_clearance_m(const MissionRecord& record) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const StepRecord& r : record.steps)
-    if (const double c = r.metric("clearance_m"); c < least) least = c;
-  return least;
-}
 
 std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record, const MeshMetrics& mesh,
                                    const Referee& referee) {
@@ -109,7 +36,7 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
            concat("a ball of ", short_number(100 * o.body_radius_m), " cm; the nearest surface was ",
                   short_number(std::round(100 * least_clearance_m(record))), " cm from it")},
           {"Map", short_number(tenths(last.metric("megabytes"))), "MB",
-           concat("voxels of ", short_number(100 * o.map_voxel_m), " cm")}};
+           concat("voxels of ", short_number(100 * o.map_voxel()), " cm")}};
 }
 
 }  // namespace

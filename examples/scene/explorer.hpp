@@ -69,7 +69,7 @@ struct Explorer {
 
 inline Explorer explorer_of(const Options& o, const Input& input) {
   return {.bounds = input.bounds,
-          .voxel_m = o.map_voxel_m,
+          .voxel_m = o.map_voxel(),
           .clearance_m = o.body_radius_m,
           .range_m = o.range_m,
           .speed_m_s = o.speed_m_s,

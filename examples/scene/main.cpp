@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 
-// A robot sees a scene for the first time: it explores a home (chapter 6's baselines), or looks at objects or through a
-// recording from given views.
+// A robot sees a scene for the first time: it reconstructs a home with surfels or explores it (chapter 6), or looks at
+// objects or through a recording from given views.
 #include <cmath>
 #include <iostream>
 
 #include "explore.hpp"
 #include "missions.hpp"
+#include "reconstruct.hpp"
 
 namespace scene {
 
@@ -24,7 +25,8 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
   }
   if (o.explores()) {
     c["preset"] = vantage::name_of(o.preset);
-    c["map_voxel_m"] = o.map_voxel_m;
+    c["map_voxel_m"] = o.map_voxel();
+    c["map"] = o.reconstructs() ? "surfels" : "voxels";
     c["speed_m_s"] = o.speed_m_s;
   } else {
     c["candidates"] = input.views.size();
@@ -49,6 +51,10 @@ void run(const scene::Options& o) {
   std::cerr << input.name << ". " << input.note << '\n';
   if (!o.explores())
     scene::look_around(o, input);
+  else if (o.reconstructs() && o.preset == vantage::PresetKind::thesis)
+    scene::reconstruct<vantage::preset::thesis>(o, input);
+  else if (o.reconstructs())
+    scene::reconstruct<vantage::preset::reference>(o, input);
   else if (o.preset == vantage::PresetKind::thesis)
     scene::explore<vantage::RayCast>(o, input);
   else

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
@@ -25,11 +27,15 @@ using namespace vantage;
 
 inline const std::vector<MethodName>& methods() {
   static const std::vector<MethodName> list = {
+      {"ours", "reconstructs with surfels: regions of interest, for unexplored space and unsure surfaces (ch. 6)"},
+      {"without_roi", "the same from views around the robot alone"},
+      {"view_count", "the same, with confidence by the number of views"},
+      {"fisher", "reconstructs with surfels: frontiers, for most Fisher information"},
       {"fbe", "explores: frontiers of what is known, for most unexplored space in sight (6.2.2)"},
       {"nbvp", "explores: a tree of views, the first of its best branch is flown (2.2.3)"},
       {"information_gain", "explores: frontiers, for most expected information"},
-      {"max_view_distance", "the view farthest from all that were taken"},
       {"random", "any view; in a scene, of those that can be flown to"},
+      {"max_view_distance", "the view farthest from all that were taken"},
       {"in_order", "the views as they are listed: a recording as it was made"}};
   return list;
 }
@@ -47,25 +53,37 @@ struct Options : MissionOptions {
   double body_radius_m = 0.2;
   double voxel_m = 0.02;
   double threshold_m = 0.02;
-  double map_voxel_m = 0.05;
+  std::optional<double> map_voxel_m = {};
+  std::string map = {};  ///< --map: voxels or surfels; empty: what the method is for
   double speed_m_s = 1;
+  int test_views = 100;
+  double judge_every_s = 60;
 
   Options() {
     out = "out/scene";
-    method = "fbe";
+    method = "ours";
   }
   /// Objects and recordings are only looked at from given views.
   [[nodiscard]] bool can_explore() const { return objects.empty() && recording.empty(); }
-  [[nodiscard]] bool explores() const {
-    return method == "fbe" || method == "nbvp" || method == "information_gain" || (method == "random" && can_explore());
+  [[nodiscard]] bool is(std::initializer_list<std::string_view> names) const {
+    return std::find(names.begin(), names.end(), method) != names.end();
   }
+  [[nodiscard]] bool needs_surfels() const { return is({"ours", "without_roi", "view_count", "fisher"}); }
+  [[nodiscard]] bool reconstructs() const { return needs_surfels() || map == "surfels"; }
+  /// Flies through what its map says is free, whatever the map.
+  [[nodiscard]] bool explores() const {
+    return needs_surfels() || is({"fbe", "nbvp", "information_gain"}) || (method == "random" && can_explore());
+  }
+  [[nodiscard]] double map_voxel() const { return map_voxel_m.value_or(reconstructs() ? 0.1 : 0.05); }
   [[nodiscard]] RgbdConfig sensor() const {
     return {.camera = Camera::from_fov(pixels, pixels, deg(field_of_view_deg)),
             .depth_noise = depth_noise,
             .max_depth_m = range_m};
   }
-  /// 15 minutes, unless told: an exploration at random never ends by itself.
-  [[nodiscard]] double most_time_s() const { return explores() && std::isinf(budget_s) ? 900 : budget_s; }
+  /// Unless told, the 5 minutes of ch. 6, or 15: an exploration at random never ends by itself.
+  [[nodiscard]] double most_time_s() const {
+    return explores() && std::isinf(budget_s) ? reconstructs() ? 300 : 900 : budget_s;
+  }
   [[nodiscard]] std::optional<std::uint64_t> most_measurements() const {
     if (measurements != std::numeric_limits<std::uint64_t>::max()) return measurements;
     return explores() ? std::nullopt : std::optional<std::uint64_t>(40);
@@ -109,7 +127,18 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--depth-noise", o.depth_noise, "Standard deviation of a depth, as a share of it", 0, 1, "SHARE");
   number("--body", o.body_radius_m, "Radius of the robot, which keeps so far from every surface", 0.01, 10, "METRES");
   number("--voxel", o.voxel_m, "Voxels of the reconstruction", 0.001, 1, "METRES");
-  number("--map-voxel", o.map_voxel_m, "Voxels of the map that an explorer flies by", 0.01, 1, "METRES");
+  app.add_option("--map-voxel", o.map_voxel_m,
+                 "Voxels of the map that a robot flies by (default: 0.05; of surfels 0.1)")
+      ->check(CLI::Range(0.01, 1.0))
+      ->type_name("METRES");
+  app.add_option("--map", o.map, "What fbe and random learn (default: voxels; the methods of surfels learn both)")
+      ->check(CLI::IsMember({"voxels", "surfels"}))
+      ->type_name("voxels|surfels");
+  app.add_option("--test-views", o.test_views, "Views that surfels are judged by, beside the truth")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str()
+      ->type_name("N");
+  number("--judge-every", o.judge_every_s, "Mission time between judgements of surfels", 1, 1e6, "SECONDS");
   number("--speed", o.speed_m_s, "How fast an explorer flies", 0.01, 100, "METRES/S");
   number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
 }
@@ -120,6 +149,9 @@ inline void validate(const Options& o) {
   if (inputs > 1) throw Error("--scene, --object, --recording, --room", concat(inputs, " of them"), "one at most");
   if (o.explores() && !o.can_explore())
     throw Error("--method", concat(o.method, " flies through a scene"), "--scene or --room, or another method");
+  if (o.needs_surfels() && o.map == "voxels") throw Error("--map", concat("voxels for ", o.method), "surfels");
+  if (o.map == "surfels" && !o.needs_surfels() && !o.is({"fbe", "random"}))
+    throw Error("--map", concat("surfels for ", o.method), "fbe or random, or a method of surfels");
   if (o.resume) throw Error("--resume", "a look-around keeps no checkpoint", "a run from the start");
 }
 

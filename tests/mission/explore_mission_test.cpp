@@ -25,7 +25,7 @@ class ExploreMission : public MissionProgram {
 const std::string room = "--room 1 --pixels 128 --fov 75 --clock modelled --voxel 0.05 --body 0.15";
 
 TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
-  const Ended e = run(room + " --measurements 60" + out("a"));
+  const Ended e = run(room + " --method fbe --measurements 60" + out("a"));
   ASSERT_EQ(e.code, 0) << e.err;
   const auto a = folder.path / "a";
   EXPECT_EQ(e.out, (a / "report.html").string() + "\n");
@@ -52,7 +52,9 @@ TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
 
 TEST_F(ExploreMission, EndsWhenNoFrontierIsLeft) {
   ASSERT_EQ(
-      run("--room 1 --pixels 256 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.08" + out("a")).code,
+      run("--room 1 --method fbe --pixels 256 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.08" +
+          out("a"))
+          .code,
       0);
   const auto json = mission("a");
   EXPECT_EQ(json["stop_reason"], "nothing_to_do");
