@@ -113,8 +113,8 @@ std::size_t densify(Surfels& surfels, const Frame& frame, const Drawn& drawn, co
   const NormalImage normals = normals_of(bilateral_filter(frame.depth, config.filter), frame.camera);
   const Eigen::Index width = frame.depth.cols();
   const auto ray_of = [&](std::size_t i) -> Eigen::Vector3d {
-    const auto k = static_cast<Eigen::Index>(i);
-    return frame.camera.ray(static_cast<double>(k % width) + 0.5, static_cast<double>(k / width) + 0.5);
+    const auto k = static_cast<Eigen::Index>(i), row = k / width;
+    return frame.camera.ray(static_cast<double>(k - row * width) + 0.5, static_cast<double>(row) + 0.5);
   };
   const auto pixels = static_cast<std::size_t>(frame.depth.size());
   std::vector<std::uint8_t> wanted(pixels), stays(pixels);

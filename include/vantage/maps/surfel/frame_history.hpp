@@ -34,8 +34,7 @@ class TrainingFrame {
     levels_.resize(3 * n);
     std::uint8_t* to = levels_.data();
     for (const Image<float>* plane : {&frame.colour.r, &frame.colour.g, &frame.colour.b})
-      for (std::size_t i = 0; i < n; ++i)
-        *to++ = static_cast<std::uint8_t>(static_cast<std::int32_t>(plane->data()[i] * 255.0F + 0.5F));
+      for (std::size_t i = 0; i < n; ++i) *to++ = static_cast<std::uint8_t>(std::lrint(plane->data()[i] * 255.0F));
   }
 
   Camera camera;
