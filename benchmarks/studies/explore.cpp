@@ -18,6 +18,7 @@
 
 #include "homes.hpp"
 #include "scene/explorer.hpp"
+#include "scene/first_views.hpp"
 #include "scene/referee.hpp"
 #include "statistics.hpp"
 #include "study_options.hpp"

@@ -18,6 +18,7 @@
 #include <vantage/sim/rgbd_world.hpp>
 
 #include "homes.hpp"
+#include "scene/first_views.hpp"
 #include "scene/reconstructor.hpp"
 #include "scene/referee.hpp"
 #include "scene/surfel_judge.hpp"
@@ -96,7 +97,8 @@ Json reconstruct(const SceneOptions& o, const Json& p) {
     scene::SurfelJudge judge(input, s);
     Costs costs;
     MissionClock clock(p["clock"] == "real" ? ClockKind::real : ClockKind::modelled, scene::published_costs);
-    loop.run(world, input.start, Views(&input.start, 1), s.stop_rule(), clock, Rng(s.seed), referee, judge, costs);
+    loop.run(world, input.start, scene::turn_around(input.start, deg(s.field_of_view_deg)), s.stop_rule(), clock,
+             Rng(s.seed), referee, judge, costs);
     const auto note = [&](const scene::SurfelJudge::Score& score) {
       result["elapsed_s"].push_back(score.elapsed_s);
       result["psnr"].push_back(number(score.psnr_db));

@@ -13,6 +13,7 @@
 
 #include "explore_results.hpp"
 #include "explorer.hpp"
+#include "first_views.hpp"
 #include "missions.hpp"
 #include "referee.hpp"
 

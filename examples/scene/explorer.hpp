@@ -1,11 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <cmath>
-#include <numbers>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <vantage/core/units.hpp>
 #include <vantage/loop/nbv_loop.hpp>
@@ -74,23 +71,6 @@ inline Explorer explorer_of(const Options& o, const Input& input) {
           .range_m = o.range_m,
           .speed_m_s = o.speed_m_s,
           .sensor = Camera::from_fov(128, 128, deg(o.field_of_view_deg))};
-}
-
-/// Everything around a point: level, up and down, so that no direction but straight up and down is left out. What a
-/// robot that knows nothing may do without moving.
-inline std::vector<View> look_all_around(const View& start, double field_of_view_rad) {
-  std::vector<View> views;
-  const int turns = static_cast<int>(std::ceil(2 * std::numbers::pi / field_of_view_rad - 1e-9));
-  const Eigen::Vector3d forward = start.forward();
-  const double heading_rad = std::atan2(forward.y(), forward.x());
-  for (const double pitch_rad : {0.0, -0.8 * field_of_view_rad, 0.8 * field_of_view_rad})
-    for (int k = 0; k < turns; ++k) {
-      const double yaw_rad = heading_rad + k * 2 * std::numbers::pi / turns;
-      const Eigen::Vector3d ahead(std::cos(pitch_rad) * std::cos(yaw_rad), std::cos(pitch_rad) * std::sin(yaw_rad),
-                                  std::sin(pitch_rad));
-      views.push_back(look_at(start.position(), start.position() + ahead));
-    }
-  return views;
 }
 
 }  // namespace scene

@@ -12,6 +12,7 @@
 #include <vantage/mission/recorder.hpp>
 #include <vantage/sim/rgbd_world.hpp>
 
+#include "first_views.hpp"
 #include "missions.hpp"
 #include "reconstruct_results.hpp"
 #include "reconstructor.hpp"
@@ -42,8 +43,8 @@ void reconstruct(const Options& o, const Input& input) {
                        .budget_steps = o.measurements,
                        .terminal_fd = STDERR_FILENO,
                        .utf8 = locale_is_utf8()});
-    loop.run(world, input.start, Views(&input.start, 1), o.stop_rule(), clock, Rng(o.seed), referee, judge, recorder,
-             album, progress);
+    loop.run(world, input.start, turn_around(input.start, deg(o.field_of_view_deg)), o.stop_rule(), clock, Rng(o.seed),
+             referee, judge, recorder, album, progress);
 
     Reconstruction result{.scores = judge.scores(), .mesh = surface_of(loop.map, input.bounds, o.voxel_m)};
     result.scores.push_back(judge.judge(loop.map, recorder.record().steps.back().elapsed_s));
