@@ -44,10 +44,13 @@ static_assert(offers_just<archetype::Occupied<>, Occupancy>);
 static_assert(offers_just<archetype::Voxelled<>, Occupancy, Voxels>);
 static_assert(offers_just<archetype::Navigable<>, Occupancy, Voxels, Navigable>);
 static_assert(offers_just<archetype::Frontiers<>, Occupancy, Frontier>);
+static_assert(offers_just<archetype::Unsure<>, Occupancy, Frontier, LowConfidence>);
+static_assert(Renders<archetype::Confident<>, channel::Depth, channel::Confidence> &&
+              !Renders<archetype::Ranging<>, channel::Depth, channel::Confidence>);
 static_assert(offers_just<archetype::Field<>, Field>);
 static_assert(offers_just<archetype::Fisher<>, Fisher>);
 static_assert(offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels,
-                          Navigable, Frontier, Fisher, Entropy, Gain>);
+                          Navigable, Frontier, LowConfidence, Fisher, Entropy, Gain>);
 static_assert(RefinableMap<archetype::Refinable<>> && !RefinableMap<archetype::Map>);
 static_assert(Persistent<archetype::Persistent<>> && !Persistent<archetype::Map>);
 

@@ -49,6 +49,9 @@ static_assert(plans<archetype::Informative<>, RayEntropy> && plans<archetype::In
 static_assert(!plans<archetype::Uncertain<>, RayEntropy> && !plans<archetype::Uncertain<>, InformationGain>);
 static_assert(plans<archetype::Occupied<archetype::Ranging<>>, Unexplored> && plans<archetype::FullMap, Unexplored> &&
               !plans<archetype::Occupied<>, Unexplored> && !plans<archetype::Ranging<>, Unexplored>);
+static_assert(plans<archetype::Occupied<archetype::Confident<>>, ConfidenceExploration<>> &&
+              !plans<archetype::Occupied<archetype::Ranging<>>, ConfidenceExploration<>>);
+static_assert(plans<archetype::Fisher<>, FisherInformation> && !plans<archetype::Map, FisherInformation>);
 static_assert(plans<CarryMap, MeanUncertainty> && plans<CarryMap, VarianceReduction>);
 
 // A policy whose own form is wrong composes with nothing, and does not break the question.

@@ -105,6 +105,20 @@ class Informative : public Base {
   }
 };
 
+/// Draws depth together with confidence, which is what is not doubted.
+template <class Base = Ranging<>>
+class Confident : public Base {
+ public:
+  using Base::render;
+  void render(const View& view, const Camera& camera, Rendering<channel::Depth, channel::Confidence>& out) const {
+    Rendering<channel::Depth> ranging;
+    render(view, camera, ranging);
+    out.depth = ranging.depth;
+    const double doubt = this->doubt(this->side(view.position()));
+    out.confidence.setConstant(camera.height, camera.width, static_cast<float>(1 - doubt));
+  }
+};
+
 /// ForecastMap: what one more look would take from the doubt about its side, were the given looks taken before.
 template <class Base = Map>
 class Forecasting : public Base {
@@ -185,6 +199,19 @@ class Frontiers : public Base {
   }
 };
 
+/// RegionMap: the middle of a side that was seen once, to be looked at from above.
+template <class Base = Frontiers<>>
+class Unsure : public Base {
+ public:
+  using Base::regions;
+  [[nodiscard]] std::vector<Region> regions(low_confidence) const {
+    std::vector<Region> found;
+    for (const double x : {-0.5, 0.5})
+      if (this->looks(this->side({x, 0, 0})) == 1) found.push_back({{x, 0.1, 0.1}, {0, 0, 1}});
+    return found;
+  }
+};
+
 /// FieldMap: two cells whose variance is the doubt.
 template <class Base = Map>
 class Field : public Base {
@@ -221,8 +248,8 @@ class Refinable : public Base {
 };
 
 /// A map with all of it, in the order in which the layers are put on.
-using FullMap = Persistent<Refinable<
-    Fisher<Field<Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Informative<Ranging<Uncertain<>>>>>>>>>>>>>;
+using FullMap = Persistent<Refinable<Fisher<Field<Unsure<
+    Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Informative<Confident<Ranging<Uncertain<>>>>>>>>>>>>>>>;
 
 /// ViewUtility: psi(M, v). Here: views from the right are better, the higher the better.
 struct ViewUtility {
