@@ -80,11 +80,7 @@ class ConfidenceExploration {
   template <Renders<channel::Depth, channel::Confidence> M>
   requires OccupancyMap<M>
   auto prepare(const M& map, const Situation&, Rng) const {
-    struct Shared {
-      UnexploredVoxels<M> voxels;
-      ViewsSeen seen = {};
-    };
-    return [config = config_, &map, shared = std::make_shared<const Shared>(UnexploredVoxels<M>(map, config_.voxel_m))](
+    return [config = config_, &map, shared = std::make_shared<const Shared<M>>(map, config_.voxel_m)](
                Views given, Views views, std::span<double> out) {
       using Image = Rendering<channel::Depth, channel::Confidence>;
       const auto render = [&](const View& view) {
@@ -109,6 +105,13 @@ class ConfidenceExploration {
   [[nodiscard]] const Config& config() const { return config_; }
 
  private:
+  /// What a step's candidates share.
+  template <class M>
+  struct Shared {
+    Shared(const M& map, double voxel_m) : voxels(map, voxel_m) {}
+    UnexploredVoxels<M> voxels;
+    ViewsSeen seen = {};
+  };
   Config config_;
 };
 
