@@ -74,7 +74,7 @@ struct Options : MissionOptions {
   [[nodiscard]] bool explores() const {
     return needs_surfels() || is({"fbe", "nbvp", "information_gain"}) || (method == "random" && can_explore());
   }
-  [[nodiscard]] double map_voxel() const { return map_voxel_m.value_or(reconstructs() ? 0.1 : 0.05); }
+  [[nodiscard]] double map_voxel() const { return map_voxel_m.value_or(reconstructs() ? 0.2 : 0.05); }
   [[nodiscard]] RgbdConfig sensor() const {
     return {.camera = Camera::from_fov(pixels, pixels, deg(field_of_view_deg)),
             .depth_noise = depth_noise,
@@ -128,7 +128,7 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--body", o.body_radius_m, "Radius of the robot, which keeps so far from every surface", 0.01, 10, "METRES");
   number("--voxel", o.voxel_m, "Voxels of the reconstruction", 0.001, 1, "METRES");
   app.add_option("--map-voxel", o.map_voxel_m,
-                 "Voxels of the map that a robot flies by (default: 0.05; of surfels 0.1)")
+                 "Voxels of the map that a robot flies by (default: 0.05; of surfels 0.2)")
       ->check(CLI::Range(0.01, 1.0))
       ->type_name("METRES");
   app.add_option("--map", o.map, "What fbe and random learn (default: voxels; the methods of surfels learn both)")

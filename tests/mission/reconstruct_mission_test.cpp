@@ -25,7 +25,8 @@ class ReconstructMission : public MissionProgram {
 };
 
 const std::string room =
-    "--room 1 --pixels 96 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --test-views 8 --judge-every 10";
+    "--room 1 --pixels 96 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.1 --test-views 8 "
+    "--judge-every 10";
 
 TEST_F(ReconstructMission, OursLearnsToRenderTheRoomAndTouchesNothing) {
   const Ended e = run(room + " --measurements 16" + out("a"));
