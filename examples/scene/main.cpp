@@ -28,6 +28,7 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
     c["map_voxel_m"] = o.map_voxel();
     c["map"] = o.reconstructs() ? "surfels" : "voxels";
     c["speed_m_s"] = o.speed_m_s;
+    if (o.refine_per_s > 0) c["refine_per_s"] = o.refine_per_s;
   } else {
     c["candidates"] = input.views.size();
   }

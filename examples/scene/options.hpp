@@ -58,6 +58,7 @@ struct Options : MissionOptions {
   double speed_m_s = 1;
   int test_views = 100;
   double judge_every_s = 60;
+  double refine_per_s = 0;
 
   Options() {
     out = "out/scene";
@@ -139,6 +140,8 @@ inline void add_options(CLI::App& app, Options& o) {
       ->capture_default_str()
       ->type_name("N");
   number("--judge-every", o.judge_every_s, "Mission time between judgements of surfels", 1, 1e6, "SECONDS");
+  number("--refine", o.refine_per_s, "Iterations that surfels are trained on for every second of flight", 0, 1000,
+         "PER_S");
   number("--speed", o.speed_m_s, "How fast an explorer flies", 0.01, 100, "METRES/S");
   number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <vantage/io/splat_ply.hpp>
+#include <vantage/loop/refine_in_flight.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/mission/progress.hpp>
 #include <vantage/mission/recorder.hpp>
@@ -44,7 +45,7 @@ void reconstruct(const Options& o, const Input& input) {
                        .terminal_fd = STDERR_FILENO,
                        .utf8 = locale_is_utf8()});
     loop.run(world, input.start, turn_around(input.start, deg(o.field_of_view_deg)), o.stop_rule(), clock, Rng(o.seed),
-             referee, judge, recorder, album, progress);
+             RefineInFlight{o.refine_per_s}, referee, judge, recorder, album, progress);
 
     Reconstruction result{.scores = judge.scores(), .mesh = surface_of(loop.map, input.bounds, o.voxel_m)};
     result.scores.push_back(judge.judge(loop.map, recorder.record().steps.back().elapsed_s));

@@ -34,6 +34,7 @@
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/mission_state.hpp>
 #include <vantage/loop/nbv_loop.hpp>
+#include <vantage/loop/refine_in_flight.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/maps/field/accumulated.hpp>
 #include <vantage/maps/field/batch.hpp>

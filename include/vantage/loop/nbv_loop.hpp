@@ -93,6 +93,7 @@ class NbvLoop {
 
   /// Measures `first` unplanned (none: plans on the prior), then plans and measures until the stop rule holds, until
   /// there is nowhere to go, or until the world ends. Observers may have any of `started(map, situation)`,
+  /// `departed(map, decision, rng)` (when the robot sets out; this one may train the map, see RefineInFlight),
   /// `measured(map, situation, step)`, `completed(loop, world, clock, state)` (after every measurement: all that is
   /// needed to go on later) and `finished(map, situation, reason)`; the missing ones cost nothing.
   template <class W, class Stop, class C, class... Observers>
@@ -144,6 +145,7 @@ class NbvLoop {
         if (stop(std::as_const(map), q)) break;
         goal = plan_made->view;
         const Decision& d = plan_made->decision;
+        (tell_departed(observers, d, planning_rng), ...);
         if constexpr (requires { world.follow(d.path); }) world.follow(d.path);
         clock.travelled(d.travel_s);
         action_s = d.travel_s;
@@ -195,6 +197,13 @@ class NbvLoop {
   template <class O>
   void tell_started(O& o, const Situation& q) const {
     if constexpr (requires { o.started(map, q); }) o.started(map, q);
+  }
+  template <class O>
+  void tell_departed(O& o, const Decision& decision, const Rng& rng) {
+    if constexpr (requires(Rng& own) { o.departed(map, decision, own); }) {
+      Rng own = rng.fork(1);
+      o.departed(map, decision, own);
+    }
   }
   template <class O, class S>
   void tell_measured(O& o, const Situation& q, const S& step) const {

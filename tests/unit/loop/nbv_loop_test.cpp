@@ -7,11 +7,13 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <vantage/concepts/archetypes.hpp>
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/nbv_loop.hpp>
+#include <vantage/loop/refine_in_flight.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/sampler/pool.hpp>
 #include <vantage/selector/in_order.hpp>
@@ -67,6 +69,31 @@ TEST(NbvLoop, TheSameSeedTheSameMission) {
   };
   EXPECT_EQ(mission(1), mission(1));
   EXPECT_NE(mission(1), mission(2));
+}
+
+/// A map that counts how often it was trained.
+struct Training : archetype::FullMap {
+  int* steps;
+  void refine(int n, Rng&) { *steps += n; }
+};
+
+TEST(NbvLoop, RefinesInFlightByTheTimeOfTheFlight) {
+  const auto trained = [](double steps_per_s, std::uint64_t views, MissionState& s) {
+    int steps = 0;
+    NbvLoop loop{Training{{}, &steps}, MeanUncertainty{}, archetype::Sampler{}, archetype::Selector{}};
+    archetype::World world;
+    ModelledClock clock;
+    s = loop.run(world, View{}, {}, Measurements(views), clock, Rng{7}, RefineInFlight{steps_per_s});
+    return std::pair(steps, clock.elapsed_s());
+  };
+  MissionState s;
+  const auto [none, plain_s] = trained(0, 6, s);
+  EXPECT_EQ(none, 0);
+  ASSERT_GT(s.travelled_m, 1);
+  const auto [many, same_s] = trained(100, 6, s);
+  EXPECT_NEAR(many, 100 * s.travelled_m, 6);  // 1 m/s; each flight's steps are rounded down
+  EXPECT_EQ(same_s, plain_s) << "flying takes that time anyway";
+  EXPECT_THROW(RefineInFlight{-1}, Error);
 }
 
 /// Keeps what a checkpoint would hold after every measurement.
