@@ -5,12 +5,10 @@
 // mapping_step_only on the 9th, without: check, voxels, densification, 10 iterations on 8 frames each, confidence.
 // `surfels` says how many there were. training is the iterations alone on 300 k. Items are pixels (of training: of all
 // frames), of adam surfels.
-#include <cmath>
 #include <cstddef>
-#include <map>
 #include <vector>
 
-#include "kernels/surfel_input.hpp"
+#include "kernels/surfel_frames.hpp"
 #include "peak.hpp"
 
 #include <vantage/maps/surfel/densify.hpp>
@@ -23,54 +21,11 @@ namespace {
 using namespace vantage;
 using Raster = TileRasteriser<>;
 
-constexpr int pixels = 512;
-
-// What a camera in the middle of the room sees of the surfels, in so many directions: as a frame.
-Frame frame(const Surfels& s, int k, int of) {
-  const double heading = 6.2831853 * k / of;
-  const Eigen::Vector3d eye(2.2, 2.4, 1.5);
-  Frame f;
-  f.camera = Camera::from_fov(pixels, pixels, deg(60));
-  f.view = look_at(eye, eye + Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.8 * std::sin(1.7 * k)));
-  Raster::Pass pass;
-  Rendering<channel::Colour, channel::Depth> drawn;
-  Raster().forward(s, {.view = f.view, .camera = f.camera}, pass, drawn);
-  Rng rng(7);
-  f.depth = drawn.depth;
-  for (Eigen::Index i = 0; i < f.depth.size(); ++i) f.depth.data()[i] *= static_cast<float>(1 + 0.01 * rng.normal());
-  for (auto plane : {&ColourImage::r, &ColourImage::g, &ColourImage::b}) {
-    f.colour.*plane = (static_cast<const ColourImage&>(drawn).*plane).max(0.0F).min(1.0F);
-  }
-  return f;
-}
-
-// A map that has seen so many frames, not trained.
-const SurfelMap<>& seen(int frames) {
-  static std::map<int, SurfelMap<>> made;
-  if (const auto it = made.find(frames); it != made.end()) return it->second;
-  SurfelMap<>::Config c;
-  c.voxels.bounds = Box3(Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(6.1, 5.1, 2.7));
-  c.iterations = 0;
-  c.prune.every_frames = 1000;
-  c.densify.spacing_m = 0.03;  // untrained surfels are spawned again by every frame: about 300 k in the end
-  SurfelMap<> untrained(c);
-  const Surfels truth = bench::room_surfels(300000, 0.01, 2);
-  Rng rng(1);
-  for (int k = 0; k < frames; ++k) untrained.integrate(frame(truth, k, 10), rng);
-  Sink sink;
-  untrained.save(sink);
-  c.iterations = 10;
-  c.prune.every_frames = 5;
-  c.densify.spacing_m = 0.02;
-  SurfelMap<>& map = made.try_emplace(frames, c).first->second;
-  Source source(sink.bytes());
-  map.load(source);
-  return map;
-}
+constexpr int pixels = bench::frame_pixels;
 
 void mapping_step(benchmark::State& state, int frames) {
-  const SurfelMap<>& before = seen(frames);
-  const Frame next = frame(bench::room_surfels(300000, 0.01, 2), frames, 10);
+  const SurfelMap<>& before = bench::map_after(frames);
+  const Frame next = bench::surfel_frame(bench::room_surfels(300000, 0.01, 2), frames, 10);
   for (auto _ : state) {
     state.PauseTiming();
     SurfelMap<> map = before;
@@ -89,7 +44,7 @@ void mapping_step(benchmark::State& state, int frames) {
 void training(benchmark::State& state, std::size_t n) {
   const Surfels truth = bench::room_surfels(n, 0.01, 2);
   std::vector<TrainingFrame> frames;
-  for (int k = 0; k < 20; ++k) frames.emplace_back(frame(truth, k, 20));
+  for (int k = 0; k < 20; ++k) frames.emplace_back(bench::surfel_frame(truth, k, 20));
   Surfels s = bench::room_surfels(n);
   SurfelTrainer<Raster, EdgeAwareVariation> train({}, {});
   Raster::Pass pass;
@@ -100,7 +55,7 @@ void training(benchmark::State& state, std::size_t n) {
 
 void loss(benchmark::State& state) {
   const Surfels s = bench::room_surfels(300000);
-  const TrainingFrame f(frame(bench::room_surfels(300000, 0.01, 2), 1, 4));
+  const TrainingFrame f(bench::surfel_frame(bench::room_surfels(300000, 0.01, 2), 1, 4));
   Raster::Pass pass;
   TrainingImages drawn;
   Raster().forward(s, {.view = f.view, .camera = f.camera}, pass, drawn);
@@ -111,7 +66,7 @@ void loss(benchmark::State& state) {
 }
 
 void normals(benchmark::State& state) {
-  const Frame f = frame(bench::room_surfels(300000), 1, 4);
+  const Frame f = bench::surfel_frame(bench::room_surfels(300000), 1, 4);
   for (auto _ : state) benchmark::DoNotOptimize(normals_of(bilateral_filter(f.depth), f.camera));
   state.SetItemsProcessed(state.iterations() * pixels * pixels);
 }
@@ -133,7 +88,7 @@ void adam(benchmark::State& state, std::size_t n) {
 }
 
 void densify_all(benchmark::State& state) {
-  const Frame f = frame(bench::room_surfels(300000), 1, 4);
+  const Frame f = bench::surfel_frame(bench::room_surfels(300000), 1, 4);
   TrainingImages nothing;
   Raster::Pass pass;
   Raster().forward(Surfels{}, {.view = f.view, .camera = f.camera}, pass, nothing);

@@ -12,12 +12,22 @@
 // that no result depends on how many threads there are.
 namespace vantage {
 
+namespace detail {
+
+/// Never inlined: in each of its copies, one a place where oneTBB calls it from, the compiler might contract
+/// multiply-adds in another way, and which copy runs depends on the number of threads.
+template <class F>
+[[gnu::noinline]] void for_each_in(const tbb::blocked_range<std::size_t>& range, F& f) {
+  for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
+}
+
+}  // namespace detail
+
 /// f(i) for i in [0, n), concurrently. f must not depend on the order.
 template <class F>
 void parallel_for(std::size_t n, F&& f) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1), [&](const tbb::blocked_range<std::size_t>& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) f(i);
-  });
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 1),
+                    [&](const tbb::blocked_range<std::size_t>& range) { detail::for_each_in(range, f); });
 }
 
 /// f(begin, end) for consecutive blocks of `block` items that cover [0, n), concurrently.

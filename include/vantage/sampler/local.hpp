@@ -19,8 +19,9 @@
 namespace vantage {
 
 /// Random views around the robot (section 6.1.5, and its ablation without regions of interest): from the centres of
-/// navigable voxels within a radius, in all directions alike, without roll. A robot with no such voxel around turns
-/// where it stands. Costs one look at the blocks within the radius.
+/// navigable voxels within a radius, in all directions alike, without roll. The first is from where the robot stands,
+/// so that one that cannot go anywhere yet looks around; with no such voxel, all are. Costs one look at the blocks
+/// within the radius.
 class Local {
  public:
   using MapNeeds = Needs<need::Navigable>;
@@ -50,9 +51,9 @@ class Local {
     const ViewCone ball{.nearest_m = 0, .farthest_m = config_.radius_m, .min_cosine = -1};
     std::vector<Eigen::Vector3d> positions;
     for_each_in_cone(map, around, ball, [&](const auto& voxel) { positions.push_back(map.grid().centre(voxel)); });
-    if (positions.empty()) positions.push_back(q.here.position());
     for (std::size_t i = 0; i < n; ++i) {
-      const Eigen::Vector3d& eye = positions[rng.index(positions.size())];
+      const bool stays = i == 0 || positions.empty();
+      const Eigen::Vector3d eye = stays ? q.here.position() : positions[rng.index(positions.size())];
       views.push_back(look_at(eye, eye + direction(rng)));
     }
   }

@@ -89,33 +89,20 @@ struct ViewCountConfidence {
   }
 };
 
-namespace detail {
-
-/// Of surfels from `begin` to `end`. Never inlined: of two copies of it, one per place where TBB calls it from, the
-/// compiler contracted multiply-adds differently, and a confidence depended on the number of threads in its last bit.
-template <SurfelConfidence C>
-[[gnu::noinline]] void observe(Surfels& surfels, std::vector<float>& state, std::span<const float> weight,
-                               float threshold, const Eigen::Vector3f& eye, float far_m, std::size_t begin,
-                               std::size_t end) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::span<float, C::numbers> s(state.data() + i * C::numbers, C::numbers);
-    const Eigen::Vector3f normal = normal_of(surfels, i), to_view = eye - position_of(surfels, i);
-    const float distance_m = to_view.norm();
-    if (weight[i] > threshold && distance_m > 0)
-      C::template observe<float>(s, normal, Eigen::Vector3f(to_view / distance_m), distance_m, far_m);
-    surfels.confidence[i] = C::template value<float>(s, normal);
-  }
-}
-
-}  // namespace detail
-
 /// A view from `eye` saw the surfels whose weight in it is above `threshold`: updates their state (C::numbers a surfel)
 /// and the confidence of all. O(surfels), concurrently.
 template <SurfelConfidence C>
 void observe(Surfels& surfels, std::vector<float>& state, std::span<const float> weight, float threshold,
              const Eigen::Vector3f& eye, float far_m) {
   parallel_for_blocks(surfels.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    detail::observe<C>(surfels, state, weight, threshold, eye, far_m, begin, end);
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::span<float, C::numbers> s(state.data() + i * C::numbers, C::numbers);
+      const Eigen::Vector3f normal = normal_of(surfels, i), to_view = eye - position_of(surfels, i);
+      const float distance_m = to_view.norm();
+      if (weight[i] > threshold && distance_m > 0)
+        C::template observe<float>(s, normal, Eigen::Vector3f(to_view / distance_m), distance_m, far_m);
+      surfels.confidence[i] = C::template value<float>(s, normal);
+    }
   });
 }
 
