@@ -65,9 +65,11 @@ class Album {
 
   template <class M, class Z>
   void measured(const M&, const Situation&, const Step<Z>& step) {
-    const Frame& f = step.measurement;
+    saw(step.index, step.measurement);
+  }
+  void saw(std::uint64_t index, const Frame& f) {
     char name[32];
-    std::snprintf(name, sizeof name, "%04u.png", static_cast<unsigned>(step.index));
+    std::snprintf(name, sizeof name, "%04u.png", static_cast<unsigned>(index));
     if (poses_.empty()) {
       for (const char* kind : {"colour", "depth", "labels"})
         std::filesystem::remove_all(folder_ / kind);  // of an earlier mission
@@ -91,14 +93,14 @@ class Album {
       }
     write_file(folder_ / "poses.txt", poses_);
 
-    if ((step.index - 1) % every_ != 0) return;
+    if ((index - 1) % every_ != 0) return;
     if (strips_.size() == most_) {  // too many: from now on every other one
       every_ *= 2;
       for (std::size_t i = 1; 2 * i < strips_.size(); ++i) strips_[i] = std::move(strips_[2 * i]);
       strips_.erase(strips_.begin() + static_cast<std::ptrdiff_t>((strips_.size() + 1) / 2), strips_.end());
-      if ((step.index - 1) % every_ != 0) return;
+      if ((index - 1) % every_ != 0) return;
     }
-    strips_.push_back({step.index, f.view, f.camera, strip(f, range_m_)});
+    strips_.push_back({index, f.view, f.camera, strip(f, range_m_)});
   }
 
   struct Strip {

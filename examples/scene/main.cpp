@@ -29,12 +29,18 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
     c["map"] = o.reconstructs() ? "surfels" : "voxels";
     c["speed_m_s"] = o.speed_m_s;
     if (o.refine_per_s > 0) c["refine_per_s"] = o.refine_per_s;
+    const Eigen::Vector3d start = input.start.position();
+    c["start_m"] = {start.x(), start.y(), start.z()};
   } else {
     c["candidates"] = input.views.size();
   }
   c["range_m"] = o.range_m;
   c["voxel_m"] = o.voxel_m;
   c["threshold_m"] = o.threshold_m;
+  if (o.reconstructs()) {
+    c["test_views"] = o.test_views;
+    c["judge_every_s"] = o.judge_every_s;
+  }
   c["budget_s"] = budget(o.most_time_s());
   c["budget_travel_m"] = budget(o.travel_m);
   if (o.most_measurements()) c["budget_measurements"] = *o.most_measurements();

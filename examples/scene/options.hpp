@@ -155,7 +155,7 @@ inline void validate(const Options& o) {
   if (o.needs_surfels() && o.map == "voxels") throw Error("--map", concat("voxels for ", o.method), "surfels");
   if (o.map == "surfels" && !o.needs_surfels() && !o.is({"fbe", "random"}))
     throw Error("--map", concat("surfels for ", o.method), "fbe or random, or a method of surfels");
-  if (o.resume) throw Error("--resume", "a look-around keeps no checkpoint", "a run from the start");
+  if (o.resume && !o.explores()) throw Error("--resume", "a look-around keeps no checkpoint", "a run from the start");
 }
 
 }  // namespace scene

@@ -18,7 +18,8 @@
 namespace scene {
 
 /// Observer of an exploration that knows the truth: fuses what was measured, checks every path that was flown against
-/// the scene's triangles, and keeps how the map grew. What it does is not counted as mission time.
+/// the scene's triangles, and keeps how the map grew. What it does is not counted as mission time. Persistent but for
+/// what it saw, which it can be shown again.
 class Referee {
  public:
   Referee(const Input& input, const Options& o)
@@ -29,20 +30,25 @@ class Referee {
         high_m_(input.bounds.max().z() - 0.4) {}
 
   template <VoxelOccupancy M>
-  void measured(const M& map, const Situation& q, const Step<Frame>& step) {
-    Rng unused;
-    fused_.integrate(step.measurement, unused);
+  void measured(const M& map, const Situation&, const Step<Frame>& step) {
+    const View from = here_;
+    saw(step.index, step.measurement);
     clearance_m_ = std::numeric_limits<double>::quiet_NaN();
     if (step.plan != nullptr) {
       std::vector<View> path = step.plan->decision.path;
-      if (path.empty()) path = {here_, step.plan->view};
+      if (path.empty()) path = {from, step.plan->view};
       const PathCheck check = robot_.check(path);
       clearance_m_ = check.clearance_m;
       collisions_ += check.free() ? 0 : 1;
       paths_.push_back(std::move(path));
     }
-    here_ = q.here;
     growth_.push_back({step.index, FloorPlan(map, low_m_, high_m_)});
+  }
+  /// What a measurement shows, whatever led there.
+  void saw(std::uint64_t, const Frame& frame) {
+    Rng unused;
+    fused_.integrate(frame, unused);
+    here_ = frame.view;
   }
 
   /// What is known of the mission but not by the robot: for the recorder, after `measured`.
@@ -55,9 +61,34 @@ class Referee {
             {"megabytes", static_cast<double>(map.bytes()) / 1e6}};
   }
 
+  void save(Sink& sink) const {
+    sink.put(collisions_);
+    sink.put(static_cast<std::uint64_t>(paths_.size()));
+    for (const std::vector<View>& path : paths_) save_views(sink, path);
+    sink.put(static_cast<std::uint64_t>(growth_.size()));
+    for (const Growth& g : growth_) {
+      sink.put(g.step);
+      g.plan.save(sink);
+    }
+  }
+  void load(Source& source) {
+    const auto collisions = source.get<std::uint64_t>();
+    std::vector<std::vector<View>> paths;
+    for (auto n = source.get<std::uint64_t>(); n > 0; --n) paths.push_back(load_views(source));
+    std::vector<Growth> growth;
+    for (auto n = source.get<std::uint64_t>(); n > 0; --n) {
+      Growth& g = growth.emplace_back();
+      source.get(g.step);
+      g.plan.load(source);
+    }
+    collisions_ = collisions;
+    paths_ = std::move(paths);
+    growth_ = std::move(growth);
+  }
+
   struct Growth {
-    std::uint64_t step;
-    FloorPlan plan;
+    std::uint64_t step = 0;
+    FloorPlan plan = {};
   };
   [[nodiscard]] const FusedMap& fused() const { return fused_; }
   [[nodiscard]] const std::vector<std::vector<View>>& paths() const { return paths_; }

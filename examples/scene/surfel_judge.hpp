@@ -40,7 +40,7 @@ TriangleMesh surface_of(const M& map, const Box3& bounds, double voxel_m) {
 }
 
 /// Observer that knows the truth: every so many seconds of mission time, how like the scene the map's renderings are,
-/// and how complete its surface is (section 6.2.1). What it does is not counted as mission time.
+/// and how complete its surface is (section 6.2.1). What it does is not counted as mission time. Persistent.
 class SurfelJudge {
  public:
   struct Score {
@@ -117,6 +117,23 @@ class SurfelJudge {
     return picture;
   }
   [[nodiscard]] std::size_t test_views() const { return views_.size(); }
+
+  void save(Sink& sink) const {
+    sink.put(next_s_);
+    sink.put(static_cast<std::uint64_t>(scores_.size()));
+    for (const Score& s : scores_)
+      for (const double x : {s.elapsed_s, s.psnr_db, s.completeness}) sink.put(x);
+  }
+  void load(Source& source) {
+    const auto next_s = source.get<double>();
+    std::vector<Score> scores;
+    for (auto n = source.get<std::uint64_t>(); n > 0; --n) {
+      Score& s = scores.emplace_back();
+      for (double* x : {&s.elapsed_s, &s.psnr_db, &s.completeness}) source.get(*x);
+    }
+    next_s_ = next_s;
+    scores_ = std::move(scores);
+  }
 
  private:
   const Input& input_;

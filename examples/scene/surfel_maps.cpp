@@ -4,11 +4,10 @@
 
 namespace vantage {
 
-template class SurfelMap<TileRasteriser<>, DispersionConfidence, PlainVariation, VoxelMap<RayCast>>;
-template class SurfelMap<TileRasteriser<>, ViewCountConfidence, PlainVariation, VoxelMap<RayCast>>;
+template class SurfelMap<TileRasteriser<>, DispersionConfidence, PlainVariation, PresetVoxelMap<preset::thesis>>;
+template class SurfelMap<TileRasteriser<>, ViewCountConfidence, PlainVariation, PresetVoxelMap<preset::thesis>>;
 template class SurfelMap<TileRasteriser<>, IncrementalConfidence, EdgeAwareVariation,
-                         VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>;
-template class SurfelMap<TileRasteriser<>, ViewCountConfidence, EdgeAwareVariation,
-                         VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>;
+                         PresetVoxelMap<preset::reference>>;
+template class SurfelMap<TileRasteriser<>, ViewCountConfidence, EdgeAwareVariation, PresetVoxelMap<preset::reference>>;
 
 }  // namespace vantage

@@ -6,11 +6,11 @@
 // The surfel maps of the methods, compiled once, in surfel_maps.cpp, and not with every loop.
 namespace vantage {
 
-extern template class SurfelMap<TileRasteriser<>, DispersionConfidence, PlainVariation, VoxelMap<RayCast>>;
-extern template class SurfelMap<TileRasteriser<>, ViewCountConfidence, PlainVariation, VoxelMap<RayCast>>;
+extern template class SurfelMap<TileRasteriser<>, DispersionConfidence, PlainVariation, PresetVoxelMap<preset::thesis>>;
+extern template class SurfelMap<TileRasteriser<>, ViewCountConfidence, PlainVariation, PresetVoxelMap<preset::thesis>>;
 extern template class SurfelMap<TileRasteriser<>, IncrementalConfidence, EdgeAwareVariation,
-                                VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>;
+                                PresetVoxelMap<preset::reference>>;
 extern template class SurfelMap<TileRasteriser<>, ViewCountConfidence, EdgeAwareVariation,
-                                VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>;
+                                PresetVoxelMap<preset::reference>>;
 
 }  // namespace vantage

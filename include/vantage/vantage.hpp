@@ -100,6 +100,7 @@
 #include <vantage/maps/voxel/render_voxels.hpp>
 #include <vantage/maps/voxel/voxel_blocks.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
+#include <vantage/maps/voxel/voxel_presets.hpp>
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/heading.hpp>
 #include <vantage/planning/lattice_moves.hpp>

@@ -21,7 +21,7 @@
 #include <vantage/maps/field/matern.hpp>
 #include <vantage/maps/field/methods.hpp>
 #include <vantage/maps/surfel/surfel_presets.hpp>
-#include <vantage/maps/voxel/voxel_map.hpp>
+#include <vantage/maps/voxel/voxel_presets.hpp>
 
 #include "../voxel_scenes.hpp"
 #include "lists.hpp"
@@ -41,13 +41,12 @@ namespace vantage::test {
 using CarryMap = Carry<archetype::FullMap, archetype::Persistent<>>;
 using OursMap = Ours<>;
 using LatentMap = Ours<preset::thesis, Latent<>>;
-using PublishedVoxels = VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>;
+using PublishedVoxels = PresetVoxelMap<preset::reference>;
 using MaternMap = IntegralGp<Matern32>;
 
-using Maps =
-    List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
-         Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>, VoxelMap<>,
-         PublishedVoxels, VoxelMap<RayCast, ClassCounts<5>>, ActiveGsMap<>, ActiveGsMap<preset::thesis>>;
+using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap,
+                  OursMap, Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>,
+                  VoxelMap<>, PublishedVoxels, SemanticVoxelMap<5>, ActiveGsMap<>, ActiveGsMap<preset::thesis>>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
 /// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
 /// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether

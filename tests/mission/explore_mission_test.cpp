@@ -75,6 +75,22 @@ TEST_F(ExploreMission, EveryMethodExploresAndRepeatsWithAnyThreads) {
   }
 }
 
+TEST_F(ExploreMission, KilledAndResumed) {
+  for (const std::string method : {"fbe", "nbvp", "information_gain", "random"})
+    expect_to_survive(room + " --measurements 40 --method " + method, 2,
+                      {"mission.json", "map.bt", "mesh.ply", "path.csv", "growth.png", "views/poses.txt"});
+}
+
+TEST_F(ExploreMission, ResumingAnotherMissionIsRefused) {
+  const std::string few = room + " --method fbe --measurements 24";
+  ASSERT_EQ(run(few + out("a")).code, 0);
+  const std::string before = text_of(folder.path / "a" / "mission.json");
+  const Ended e = run(few + " --speed 2 --resume" + out("a"));
+  EXPECT_EQ(e.code, 2);
+  EXPECT_NE(e.err.find("speed_m_s: 1.0 there, 2.0 here"), e.err.npos) << e.err;
+  EXPECT_EQ(text_of(folder.path / "a" / "mission.json"), before);
+}
+
 TEST_F(ExploreMission, BadInputIsOneLineAndCodeTwo) {
   const auto refused = [&](const std::string& arguments, const std::string& says) {
     const Ended e = run(arguments + out("x"));

@@ -66,6 +66,12 @@ TEST_F(ReconstructMission, EveryMethodReconstructsAndRepeatsWithAnyThreads) {
   }
 }
 
+TEST_F(ReconstructMission, KilledAndResumed) {
+  expect_to_survive(room + " --measurements 14", 3,
+                    {"mission.json", "surfels.ply", "splats.ply", "mesh.ply", "path.csv", "growth.png",
+                     "views/poses.txt", "rendering_1.png"});
+}
+
 TEST_F(ReconstructMission, BadInputIsOneLineAndCodeTwo) {
   const auto refused = [&](const std::string& arguments, const std::string& says) {
     const Ended e = run(arguments + out("x"));

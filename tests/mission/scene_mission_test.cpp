@@ -112,7 +112,7 @@ TEST_F(SceneMission, BadInputIsOneLineAndCodeTwo) {
   refused("--recording /no/such/recording", "/no/such/recording");
   refused("--scene a --room 1", "one at most");
   refused("--room 1 --start 0 0 -5", "start");
-  refused("--room 1 --resume", "--resume");
+  refused("--room 1 --method max_view_distance --resume", "--resume");
   refused("--room 1 --method magic", "--method");
   std::ofstream(folder.path / "empty.obj") << "v 0 0 0\n";
   refused("--scene '" + (folder.path / "empty.obj").string() + "'", "empty.obj");

@@ -10,7 +10,7 @@
 #include <vantage/maps/field/diagonal.hpp>
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/surfel/surfel_presets.hpp>
-#include <vantage/maps/voxel/voxel_map.hpp>
+#include <vantage/maps/voxel/voxel_presets.hpp>
 
 // The capability table: what each map offers, and what it does not. A map that gains or loses a capability by accident
 // does not compile here.
@@ -74,7 +74,8 @@ static_assert(Posed<IntegralGp<>::Measurement> && Posed<archetype::Map::Measurem
 template <class M>
 constexpr bool voxel_map =
     offers_just<M, Uncertainty, Depth, Coverage, Occupancy, Voxels, Navigable, Frontier, Entropy, Gain>&& Persistent<M>;
-static_assert(voxel_map<VoxelMap<>> && voxel_map<VoxelMap<Projective, ClassCounts<5>, NoOccupiedCentreInBall>>);
+static_assert(voxel_map<PresetVoxelMap<preset::reference>> && voxel_map<SemanticVoxelMap<5>> &&
+              voxel_map<SemanticVoxelMap<5, preset::reference>> && std::same_as<PresetVoxelMap<>, VoxelMap<>>);
 static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
               !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
 static_assert(ForetellsRefusal<VoxelMap<>> && Posed<VoxelMap<>::Measurement>);

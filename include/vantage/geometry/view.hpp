@@ -3,9 +3,12 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <string_view>
+#include <vector>
 
+#include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 
 namespace vantage {
@@ -27,6 +30,10 @@ struct View {
       }
     return inverse;
   }
+
+  void save(Sink& sink) const { sink.put(Eigen::Matrix4d(T_W_C.matrix())); }
+  /// Throws Error, the view unchanged, unless it is a pose.
+  void load(Source& source);
 };
 
 using Views = std::span<const View>;
@@ -66,6 +73,30 @@ inline void check_view(const View& view, std::string_view where) {
   const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= 1e-6; };
   if (!unit(x) || !unit(y) || !unit(z) || (x.cross(y) - z).norm() > 1e-6)
     throw Error(where, "the view's pose is no rigid transform", "a rotation with determinant 1");
+}
+
+inline void View::load(Source& source) {
+  Eigen::MatrixXd pose;
+  source.get(pose);
+  if (pose.rows() != 4 || pose.cols() != 4) throw Error(source.where(), "a pose of another size", "4 x 4");
+  View v;
+  v.T_W_C.matrix() = pose;
+  check_view(v, source.where());
+  *this = v;
+}
+
+inline void save_views(Sink& sink, Views views) {
+  sink.put(static_cast<std::uint64_t>(views.size()));
+  for (const View& v : views) v.save(sink);
+}
+/// What save_views wrote. Throws Error unless all are poses.
+inline std::vector<View> load_views(Source& source) {
+  const auto n = source.get<std::uint64_t>();
+  if (n > source.left() / sizeof(Eigen::Matrix4d))
+    throw Error(source.where(), concat(n, " views"), "no more than the bytes that are left hold");
+  std::vector<View> views(static_cast<std::size_t>(n));
+  for (View& v : views) v.load(source);
+  return views;
 }
 
 }  // namespace vantage

@@ -127,6 +127,7 @@ struct CheckpointConfig {
   std::filesystem::path file = {};  ///< its folder must exist
   std::uint64_t every_steps = 1;    ///< measurements between two checkpoints, >= 1
   double every_s = 0;               ///< real time between two checkpoints, >= 0; both must have passed
+  double most_share = 1;  ///< of real time that may go into writing, in (0, 1]: large maps are written less often
 };
 
 /// Observer that keeps a mission on disk: after a measurement, the map, the clock, the mission's state and whatever of
@@ -148,23 +149,26 @@ class Checkpoint {
     check(!config_.file.empty(), "file", config_.file.string(), "a file name");
     check(config_.every_steps >= 1, "every_steps", config_.every_steps, "at least 1");
     check.not_negative("every_s", config_.every_s);
+    check(config_.most_share > 0 && config_.most_share <= 1, "most_share", config_.most_share, "in (0, 1]");
     check.done();
   }
 
   template <class Loop, class W, class C>
   void completed(const Loop& loop, const W& world, const C& clock, const MissionState& state) {
-    const auto now = std::chrono::steady_clock::now();
-    if (state.visited.size() < saved_step_ + config_.every_steps) return;
-    if (std::chrono::duration<double>(now - saved_at_).count() < config_.every_s) return;
+    const double since_s = seconds_since(saved_at_);
+    if (state.visited.size() < saved_step_ + config_.every_steps || since_s < config_.every_s) return;
+    if (since_s * config_.most_share < writing_s_ * (1 - config_.most_share)) return;
     save(loop, world, clock, state);
   }
 
   template <class Loop, class W, class C>
   void save(const Loop& loop, const W& world, const C& clock, const MissionState& state) {
+    const auto began = std::chrono::steady_clock::now();
     write_file(config_.file, std::apply([](const auto&... parts) { return checkpoint_bytes(parts...); },
                                         parts(loop, world, clock, state)));
     saved_step_ = state.visited.size();
     saved_at_ = std::chrono::steady_clock::now();
+    writing_s_ = std::chrono::duration<double>(saved_at_ - began).count();
   }
 
   /// Sets everything to the last checkpoint. False, and nothing changed, if there is none; throws Error, and nothing
@@ -182,6 +186,9 @@ class Checkpoint {
   }
 
  private:
+  static double seconds_since(std::chrono::steady_clock::time_point t) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+  }
   template <class T>
   static auto if_persistent(T& part) {
     if constexpr (Persistent<std::remove_const_t<T>>)
@@ -204,6 +211,7 @@ class Checkpoint {
   CheckpointConfig config_;
   std::tuple<Riders&...> riders_;
   std::uint64_t saved_step_ = 0;
+  double writing_s_ = 0;  // the last time
   std::chrono::steady_clock::time_point saved_at_ = std::chrono::steady_clock::now();
 };
 

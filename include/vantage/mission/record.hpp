@@ -44,7 +44,7 @@ struct StepRecord {
   }
   void save(Sink& sink) const {
     sink.put(index);
-    sink.put(Eigen::Matrix4d(view.T_W_C.matrix()));
+    view.save(sink);
     sink.put(planned);
     for (const double x : {utility, best_utility, planning_s, mapping_s, action_s, elapsed_s, travelled_m}) sink.put(x);
     sink.put(candidates);
@@ -57,11 +57,7 @@ struct StepRecord {
   void load(Source& source) {
     StepRecord r;
     source.get(r.index);
-    Eigen::MatrixXd pose;
-    source.get(pose);
-    if (pose.rows() != 4 || pose.cols() != 4) throw Error(source.where(), "a pose of another size", "4 x 4");
-    r.view.T_W_C.matrix() = pose;
-    check_view(r.view, source.where());
+    r.view.load(source);
     r.planned = source.get<std::uint8_t>() != 0;
     for (double* x :
          {&r.utility, &r.best_utility, &r.planning_s, &r.mapping_s, &r.action_s, &r.elapsed_s, &r.travelled_m})

@@ -91,24 +91,8 @@ class ViewTree {
   /// The best branch of the last tree: what it began with, if the robot follows.
   [[nodiscard]] const std::vector<View>& branch() const { return branch_; }
 
-  void save(Sink& sink) const {
-    sink.put(static_cast<std::uint64_t>(branch_.size()));
-    for (const View& v : branch_) sink.put(Eigen::Matrix4d(v.T_W_C.matrix()));
-  }
-  void load(Source& source) {
-    const auto n = source.get<std::uint64_t>();
-    if (n > source.left() / sizeof(Eigen::Matrix4d))
-      throw Error(source.where(), concat(n, " views of a branch"), "no more than the bytes that are left hold");
-    std::vector<View> branch(static_cast<std::size_t>(n));
-    for (View& v : branch) {
-      Eigen::MatrixXd pose;
-      source.get(pose);
-      if (pose.rows() != 4 || pose.cols() != 4) throw Error(source.where(), "a pose of another size", "4 x 4");
-      v.T_W_C.matrix() = pose;
-      check_view(v, source.where());
-    }
-    branch_ = std::move(branch);
-  }
+  void save(Sink& sink) const { save_views(sink, branch_); }
+  void load(Source& source) { branch_ = load_views(source); }
 
  private:
   struct Tree {

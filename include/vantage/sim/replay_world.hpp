@@ -91,7 +91,7 @@ class ReplayWorld {
   }
   [[nodiscard]] std::uint64_t hash() const {
     Sink sink;
-    for (const View& v : views_) sink.put(Eigen::Matrix4d(v.T_W_C.matrix()));
+    for (const View& v : views_) v.save(sink);
     return fnv1a(sink.bytes());
   }
 

@@ -27,7 +27,7 @@
 #include <vantage/maps/surfel/render_surfels.hpp>
 #include <vantage/maps/surfel/surfel_trainer.hpp>
 #include <vantage/maps/surfel/tile_rasteriser.hpp>
-#include <vantage/maps/voxel/voxel_map.hpp>
+#include <vantage/maps/voxel/voxel_presets.hpp>
 
 namespace vantage {
 
@@ -43,8 +43,7 @@ namespace vantage {
 /// trained, 7 a pixel of every frame, and the voxels. Const members may run concurrently; every member uses all
 /// threads, and its result does not depend on their number.
 template <SurfelRasteriser Rasteriser = TileRasteriser<>, SurfelConfidence Confidence = IncrementalConfidence,
-          class Variation = EdgeAwareVariation,
-          NavigableMap Voxels = VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>>
+          class Variation = EdgeAwareVariation, NavigableMap Voxels = PresetVoxelMap<preset::reference>>
 class SurfelMap {
  public:
   using Measurement = Frame;

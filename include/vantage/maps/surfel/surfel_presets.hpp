@@ -21,7 +21,6 @@ template <>
 struct SurfelPreset<preset::thesis> {
   using Confidence = DispersionConfidence;  ///< eqs. 6.6 to 6.9
   using Variation = PlainVariation;         ///< "TV(N)"
-  using Voxels = VoxelMap<RayCast>;         ///< "following OctoMap"
 
   bool squared_colour_error = false;  ///< eq. 6.4: avg(|C - C*|) > 0.5
   double most_colour_error = 0.5;
@@ -35,7 +34,6 @@ template <>
 struct SurfelPreset<preset::reference> {
   using Confidence = IncrementalConfidence;
   using Variation = EdgeAwareVariation;
-  using Voxels = VoxelMap<Projective, NoClasses, NoOccupiedCentreInBall>;
 
   bool squared_colour_error = true;
   double most_colour_error = 0.25;
@@ -47,8 +45,7 @@ struct SurfelPreset<preset::reference> {
 /// The map of ActiveGS.
 template <class Preset = DefaultSurfelPreset, SurfelConfidence Confidence = typename SurfelPreset<Preset>::Confidence,
           SurfelRasteriser Rasteriser = TileRasteriser<>>
-using ActiveGsMap =
-    SurfelMap<Rasteriser, Confidence, typename SurfelPreset<Preset>::Variation, typename SurfelPreset<Preset>::Voxels>;
+using ActiveGsMap = SurfelMap<Rasteriser, Confidence, typename SurfelPreset<Preset>::Variation, PresetVoxelMap<Preset>>;
 
 /// A surfel map's configuration with a preset's values: voxels of 20 cm and a sensor that sees 5 m.
 ///
