@@ -26,8 +26,8 @@ struct FloorPlan {
   template <VoxelOccupancy M>
   FloorPlan(const M& map, double low_m, double high_m)
       : columns(Image<std::uint8_t>::Zero(map.grid().size().y(), map.grid().size().x())),
-        origin(map.grid().origin().head<2>()),
-        voxel_m(map.grid().voxel_m().head<2>()) {
+        origin(map.grid().origin().template head<2>()),
+        voxel_m(map.grid().voxel_m().template head<2>()) {
     const VoxelGrid& grid = map.grid();
     const auto put = [&](const Eigen::Vector3i& block, const VoxelBits& bits, Space space) {
       bits.for_each([&](std::size_t local) {
