@@ -92,6 +92,7 @@
 #include <vantage/maps/voxel/clearance.hpp>
 #include <vantage/maps/voxel/frame_voxels.hpp>
 #include <vantage/maps/voxel/frontier_bits.hpp>
+#include <vantage/maps/voxel/known_voxels.hpp>
 #include <vantage/maps/voxel/log_odds.hpp>
 #include <vantage/maps/voxel/occupancy_table.hpp>
 #include <vantage/maps/voxel/projective.hpp>

@@ -50,6 +50,15 @@ class Sink {
     put(static_cast<std::uint64_t>(m.cols()));
     append(m.data(), static_cast<std::size_t>(m.size()) * sizeof(typename Derived::Scalar));
   }
+  /// What a part saves, as a vector of bytes.
+  template <class T>
+  void put_saved(const T& part) {
+    const std::size_t before = bytes_.size();
+    put(std::uint64_t{0});
+    part.save(*this);
+    const std::uint64_t size = bytes_.size() - before - sizeof size;
+    std::memcpy(bytes_.data() + before, &size, sizeof size);
+  }
   [[nodiscard]] std::span<const std::byte> bytes() const { return bytes_; }
   [[nodiscard]] std::vector<std::byte> take() && { return std::move(bytes_); }
 
@@ -98,6 +107,12 @@ class Source {
                   concat("at most ", most, " values"));
     m.derived().resize(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(cols));
     read(m.derived().data(), static_cast<std::size_t>(m.size()) * sizeof(typename Derived::Scalar));
+  }
+  /// A vector of bytes in place, good as long as the source's are.
+  [[nodiscard]] std::span<const std::byte> get_bytes() {
+    const std::size_t size = count(1);
+    at_ += size;
+    return bytes_.subspan(at_ - size, size);
   }
   [[nodiscard]] std::size_t left() const { return bytes_.size() - at_; }
   [[nodiscard]] const std::string& where() const { return where_; }

@@ -66,7 +66,7 @@ std::vector<std::byte> checkpoint_bytes(const Parts&... parts) {
   sink.put(static_cast<std::uint32_t>(sizeof...(Parts)));
   const auto add = [&](const auto& part) {
     sink.put(std::string_view(typeid(part).name()));
-    sink.put(detail::saved(part));
+    sink.put_saved(part);
   };
   (add(parts), ...);
   sink.put(fnv1a(sink.bytes()));
@@ -99,14 +99,14 @@ void restore_checkpoint(std::span<const std::byte> bytes, const std::string& whe
   if (const auto n = source.get<std::uint32_t>(); n != sizeof...(Parts))
     throw Error(where, concat("holds ", n, " parts"),
                 concat(sizeof...(Parts), ": the mission is composed of other policies"));
-  std::vector<std::vector<std::byte>> found;
+  std::vector<std::span<const std::byte>> found;
   const auto read = [&](const auto& part) {
     std::string type;
     source.get(type);
     if (type != typeid(part).name())
       throw Error(where, concat("part ", found.size(), " is a ", detail::readable(type)),
                   "a " + detail::readable(typeid(part).name()) + ": the mission is composed of other policies");
-    source.get(found.emplace_back());
+    found.push_back(source.get_bytes());
   };
   (read(parts), ...);
   source.done();
@@ -140,7 +140,7 @@ struct CheckpointConfig {
 ///     if (resume) checkpoint.load(loop, world, clock, state);
 ///     loop.resume(world, state, first, stop, clock, recorder, checkpoint);
 ///
-/// Cost: the parts are copied twice (bytes of a part, bytes of the file) and written to the disk.
+/// Cost: the parts are copied once and written to the disk.
 template <Persistent... Riders>
 class Checkpoint {
  public:

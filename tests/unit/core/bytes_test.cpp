@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -122,6 +123,22 @@ TEST(Bytes, ErrorsNameTheSourceAndTheByte) {
     EXPECT_NE(std::string(e.what()).find("byte 4"), std::string::npos);
   }
   EXPECT_THROW(source.done(), Error);
+}
+
+TEST(Bytes, WhatAPartSavesIsAVector) {
+  struct Part {
+    void save(Sink& sink) const { sink.put(std::uint32_t{7}); }
+  };
+  Sink sink;
+  sink.put_saved(Part{});
+  sink.put(true);
+  Source copied(sink.bytes()), in_place(sink.bytes());
+  std::vector<std::byte> bytes;
+  copied.get(bytes);
+  ASSERT_EQ(bytes.size(), 4U);
+  EXPECT_TRUE(std::ranges::equal(in_place.get_bytes(), bytes));
+  EXPECT_EQ(in_place.left(), 1U);
+  EXPECT_THROW((void)in_place.get_bytes(), Error);
 }
 
 TEST(Bytes, Fnv1aIsFnv1a) {  // the published vectors

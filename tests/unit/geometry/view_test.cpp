@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/view.hpp>
@@ -77,6 +78,26 @@ TEST(View, CheckRefusesWhatIsNoPose) {
   v = nadir(0, 0, 1);
   v.T_W_C.linear().setZero();
   EXPECT_THROW(check_view(v, "test"), Error);
+}
+
+TEST(View, SavesAndLoadsItself) {
+  const std::vector<View> views = {nadir(1, 2, 3), look_at({1, 2, 3}, {0, 0, 0})};
+  Sink sink;
+  save_views(sink, views);
+  Source source(sink.bytes());
+  const std::vector<View> loaded = load_views(source);
+  source.done();
+  ASSERT_EQ(loaded.size(), 2U);
+  EXPECT_EQ(loaded[1].T_W_C.matrix(), views[1].T_W_C.matrix());
+
+  Sink bad;
+  View flat;
+  flat.T_W_C.linear().setZero();
+  save_views(bad, std::vector{flat});
+  for (const auto& bytes : {bad.bytes(), sink.bytes().first(100)}) {
+    Source refused(bytes);
+    EXPECT_THROW((void)load_views(refused), Error);
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <string>
 #include <vantage/mission/checkpoint.hpp>
 #include <vantage/mission/recorder.hpp>
@@ -69,6 +70,16 @@ TEST(Checkpoint, SavesEverySoManySteps) {
   Checkpoint hourly(CheckpointConfig{.file = folder.path / "hourly", .every_s = 3600}, seldom.recorder);
   seldom.run(40, hourly);
   EXPECT_FALSE(std::filesystem::exists(folder.path / "hourly"));
+}
+
+TEST(Checkpoint, SavesLessOftenWhatTakesLong) {
+  const toy::Folder folder;
+  Process p, q;
+  Checkpoint dear(CheckpointConfig{.file = folder.path / "c", .most_share = 1e-9}, p.recorder);
+  p.run(40, dear);
+  Checkpoint back(CheckpointConfig{.file = folder.path / "c"}, q.recorder);
+  ASSERT_TRUE(back.load(q.loop, q.world, q.clock, q.state));
+  EXPECT_EQ(q.state.visited.size(), 1U);
 }
 
 struct Plain {
@@ -166,6 +177,8 @@ TEST(Checkpoint, RefusesABadConfig) {
   EXPECT_THROW(Checkpoint<>(CheckpointConfig{}), Error);
   EXPECT_THROW(Checkpoint<>(CheckpointConfig{.file = "c", .every_steps = 0}), Error);
   EXPECT_THROW(Checkpoint<>(CheckpointConfig{.file = "c", .every_s = -1}), Error);
+  for (const double share : {0.0, 1.1, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_THROW(Checkpoint<>(CheckpointConfig{.file = "c", .most_share = share}), Error);
 }
 
 TEST(Checkpoint, AnotherMapsCheckpointLeavesTheMissionAlone) {

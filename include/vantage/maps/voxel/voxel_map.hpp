@@ -26,8 +26,7 @@
 #include <vantage/maps/voxel/class_counts.hpp>
 #include <vantage/maps/voxel/clearance.hpp>
 #include <vantage/maps/voxel/frame_voxels.hpp>
-#include <vantage/maps/voxel/frontier_bits.hpp>
-#include <vantage/maps/voxel/log_odds.hpp>
+#include <vantage/maps/voxel/known_voxels.hpp>
 #include <vantage/maps/voxel/projective.hpp>
 #include <vantage/maps/voxel/ray_cast.hpp>
 #include <vantage/maps/voxel/render_voxels.hpp>
@@ -35,19 +34,28 @@
 
 namespace vantage {
 
+/// What a voxel map with these semantics knows of 512 voxels.
+template <class Semantics>
+struct ClassedBlock : VoxelBlock {
+  [[no_unique_address]] typename Semantics::Block classes;
+};
+
 /// Probabilistic occupancy of a box in voxels (ch. 6), by policies:
 /// - Update: how depth changes it and what free and occupied mean, Projective or RayCast
 /// - Semantics: what it keeps of labels, NoClasses or ClassCounts<n>
 /// - Clearance: where a robot fits, BallInFreeVoxels or NoOccupiedCentreInBall
 ///
-/// A voxel is explored once a frame hit or passed it. Frontier (free, and one of its 6 neighbours is a voxel of the
-/// grid that is unexplored) and navigable voxels are kept up with every frame, exactly, by bits, in the blocks around
-/// those that changed. Memory: 4 bytes for each block of 8^3 voxels that fits into the box, and 4.75 bytes a voxel
-/// (with classes 4 n more) of the blocks that were touched, in slabs of 64. Models UncertainMap, DepthMap,
-/// NavigableMap, RegionMap<frontier>, CoverageMap, ForetellsRefusal and Persistent. Const members may run concurrently;
-/// `integrate` uses all threads, and its result does not depend on their number.
+/// A voxel is explored once a frame hit or passed it. What can be asked of voxels: KnownVoxels. Memory: 4 bytes for
+/// each block of 8^3 voxels that fits into the box, and 4.75 bytes a voxel (with classes 4 n more) of the blocks that
+/// were touched, in slabs of 64. Models UncertainMap, DepthMap, NavigableMap, RegionMap<frontier>, CoverageMap,
+/// ForetellsRefusal and Persistent. Const members may run concurrently; `integrate` uses all threads, and its result
+/// does not depend on their number.
 template <class Update = RayCast, class Semantics = NoClasses, class Clearance = BallInFreeVoxels>
-class VoxelMap {
+class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
+  using Block = ClassedBlock<Semantics>;
+  using Known = KnownVoxels<Block, Clearance>;
+  using Known::grid_, Known::blocks_;
+
  public:
   using Measurement = Frame;
 
@@ -62,10 +70,8 @@ class VoxelMap {
 
   /// Throws Error naming what is bad, or if the box holds more voxels than max_bytes (or 2^31 blocks) allow.
   explicit VoxelMap(const Config& config)
-      : config_(validated(config)),
-        grid_(Update::grid(config.bounds, config.voxel_m)),
-        blocks_(grid_, config.max_bytes),
-        dilation_(Clearance{}, grid_.voxel_m(), config.clearance_m) {}
+      : Known(Update::grid(validated(config).bounds, config.voxel_m), config.clearance_m, config.max_bytes),
+        config_(config) {}
 
   /// Folds a frame in; its colours are not read. A frame without any valid depth changes nothing, or clears space as
   /// far as DepthRange::no_return_m says. Throws Error, and changes nothing, as `check` does.
@@ -75,7 +81,7 @@ class VoxelMap {
     make_touched();
     fold(frame);
     if constexpr (Semantics::classes > 0) count_classes(frame);
-    derive();
+    Known::derive(slots_, changed_);
   }
   void integrate(const Frame& frame, Rng&) { integrate(frame); }
   /// Throws Error if camera, pose or a depth are bad, if there is no depth, a label beyond the classes, or if the
@@ -83,51 +89,6 @@ class VoxelMap {
   void check(const Frame& frame) const { (void)region(frame); }
 
   [[nodiscard]] const Config& config() const { return config_; }
-  [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
-  [[nodiscard]] Box3 bounds() const { return grid_.box(); }
-  /// Of the index and all blocks; what is kept from frame to frame is not counted.
-  [[nodiscard]] std::size_t bytes() const { return blocks_.bytes(); }
-
-  /// Unknown outside of the grid.
-  [[nodiscard]] Space at(const Eigen::Vector3d& p) const {
-    if (!grid_.box().contains(p)) return Space::unknown;
-    const Eigen::Vector3i voxel = grid_.voxel_at(p);
-    return grid_.contains(voxel) ? state(voxel) : Space::unknown;
-  }
-  // Of a voxel of the grid.
-  [[nodiscard]] Space state(const Eigen::Vector3i& voxel) const {
-    const Block* b = blocks_.find(block_of(voxel));
-    if (!b) return Space::unknown;
-    const std::size_t local = local_of(voxel);
-    return b->free[local] ? Space::free : b->occupied[local] ? Space::occupied : Space::unknown;
-  }
-  [[nodiscard]] bool explored(const Eigen::Vector3i& voxel) const {
-    const Block* b = blocks_.find(block_of(voxel));
-    return b && b->explored[local_of(voxel)];
-  }
-  [[nodiscard]] float log_odds(const Eigen::Vector3i& voxel) const {
-    const Block* b = blocks_.find(block_of(voxel));
-    return b ? b->log_odds[local_of(voxel)] : 0;
-  }
-  /// That it is occupied; 0.5 before anything is known.
-  [[nodiscard]] double probability(const Eigen::Vector3i& voxel) const { return probability_of(log_odds(voxel)); }
-
-  // Of whole blocks.
-  [[nodiscard]] std::span<const Eigen::Vector3i> known_blocks() const { return blocks_.known(); }
-  [[nodiscard]] VoxelBits free_in(const Eigen::Vector3i& block) const { return bits(block, &VoxelBlock::free); }
-  [[nodiscard]] VoxelBits occupied_in(const Eigen::Vector3i& block) const { return bits(block, &VoxelBlock::occupied); }
-  [[nodiscard]] VoxelBits frontier_in(const Eigen::Vector3i& block) const { return bits(block, &VoxelBlock::frontier); }
-  [[nodiscard]] VoxelBits navigable_in(const Eigen::Vector3i& block) const {
-    return bits(block, &VoxelBlock::navigable);
-  }
-  [[nodiscard]] VoxelBits unexplored_in(const Eigen::Vector3i& block) const {
-    if (!blocks_.contains(block)) return {};
-    const VoxelBits inside = VoxelBits::inside(grid_, block);
-    const Block* b = blocks_.find(block);
-    return b ? inside & ~b->explored : inside;
-  }
-  /// All that is known of a block (any block), or none; good until the map changes.
-  [[nodiscard]] const VoxelBlock* block(const Eigen::Vector3i& block) const { return blocks_.find(block); }
 
   /// Draws Depth, Entropy, Uncertainty and InformationGain, in any combination; see render_voxels. Entropy
   /// and gain reach as far as the depth range.
@@ -136,37 +97,6 @@ class VoxelMap {
       requires(renders_voxels<Channels...>) {
     render_voxels(*this, config_.update.one_voxel(), config_.range.max_m, view, camera, out);
   }
-
-  [[nodiscard]] double clearance_m() const { return config_.clearance_m; }
-  [[nodiscard]] bool navigable(const Eigen::Vector3i& voxel) const {
-    if (!grid_.contains(voxel)) return false;
-    const Block* b = blocks_.find(block_of(voxel));
-    return b && b->navigable[local_of(voxel)];
-  }
-
-  struct Counts {
-    std::uint64_t explored = 0, free = 0, occupied = 0, frontier = 0, navigable = 0;
-  };
-  /// Voxels of each kind. O(blocks).
-  [[nodiscard]] Counts counts() const {
-    Counts n;
-    for (std::size_t s = 0; s < blocks_.count(); ++s) {
-      const Block& b = blocks_[s];
-      const auto add = [](std::uint64_t& to, const VoxelBits& bits) { to += static_cast<std::uint64_t>(bits.count()); };
-      add(n.explored, b.explored), add(n.free, b.free), add(n.occupied, b.occupied), add(n.frontier, b.frontier),
-          add(n.navigable, b.navigable);
-    }
-    return n;
-  }
-  /// Share of the grid's voxels that are explored. O(blocks).
-  [[nodiscard]] double coverage() const {
-    return static_cast<double>(counts().explored) / static_cast<double>(grid_.count());
-  }
-
-  /// Every frontier voxel, by its centre; the normal is the normalised mean of the unit vectors to those of its 26
-  /// neighbours that are free (to the side from which it can be seen). Where these cancel out it points away from the
-  /// unexplored 6-neighbours, and where these do as well, up. In the order of known_blocks.
-  [[nodiscard]] std::vector<Region> regions(frontier) const;
 
   /// Pixels of each class seen in a voxel of the grid; none of it before any was.
   [[nodiscard]] std::array<std::uint32_t, Semantics::classes> class_counts(const Eigen::Vector3i& voxel) const
@@ -188,9 +118,6 @@ class VoxelMap {
   void load(Source& source);
 
  private:
-  struct Block : VoxelBlock {
-    [[no_unique_address]] typename Semantics::Block classes;
-  };
   static const Config& validated(const Config& c) {
     Check check("VoxelMap::Config");
     check.not_negative("clearance_m", c.clearance_m);
@@ -199,19 +126,12 @@ class VoxelMap {
     c.update.validate();
     return c;
   }
-  [[nodiscard]] VoxelBits bits(const Eigen::Vector3i& block, VoxelBits VoxelBlock::*kind) const {
-    const Block* b = blocks_.find(block);
-    return b ? b->*kind : VoxelBits{};
-  }
   // Checks a frame, and where it can change something.
   [[nodiscard]] FrameVoxels::Region region(const Frame& frame) const;
   // Blocks that the frame hits or passes, as numbers of seen_; those not known yet are made.
   void make_touched();
   void fold(const Frame& frame);
   void count_classes(const Frame& frame) requires(Semantics::classes > 0);
-  // Frontier and navigable voxels of the blocks around those that changed.
-  void derive();
-  void refresh(const Eigen::Vector3i& at, Block& block) const;
   [[nodiscard]] std::string signature() const {
     return concat("VoxelMap ", Update::name, " ", Semantics::name, " ", Semantics::classes, " ",
                   grid_.size().transpose(), " voxels of ", grid_.voxel_m().transpose(), " from ",
@@ -219,16 +139,11 @@ class VoxelMap {
   }
 
   Config config_;
-  VoxelGrid grid_;
-  VoxelBlocks<Block> blocks_;
-  Dilation dilation_;
   // Kept from frame to frame for their memory.
   FrameVoxels seen_;
   std::vector<std::size_t> touched_;
   std::vector<std::size_t> slots_;     // of those
-  std::vector<std::uint8_t> changed_;  // by slot
-  std::vector<std::size_t> stale_;
-  std::vector<std::uint8_t> is_stale_;  // by slot
+  std::vector<std::uint8_t> changed_;  // whether those did
 };
 
 template <class Update, class Semantics, class Clearance>
@@ -314,66 +229,6 @@ void VoxelMap<Update, Semantics, Clearance>::count_classes(const Frame& frame) r
 }
 
 template <class Update, class Semantics, class Clearance>
-void VoxelMap<Update, Semantics, Clearance>::derive() {
-  stale_.clear();
-  is_stale_.assign(blocks_.count(), 0);
-  const int reach = std::max(1, dilation_.blocks());
-  for (std::size_t k = 0; k < slots_.size(); ++k) {
-    if (!changed_[k]) continue;
-    for (int z = -reach; z <= reach; ++z)
-      for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x) {
-          const std::int32_t s = blocks_.slot(blocks_.known()[slots_[k]] + Eigen::Vector3i(x, y, z));
-          if (s < 0 || std::exchange(is_stale_[static_cast<std::size_t>(s)], std::uint8_t{1})) continue;
-          stale_.push_back(static_cast<std::size_t>(s));
-        }
-  }
-  parallel_for_blocks(stale_.size(), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) refresh(blocks_.known()[stale_[i]], blocks_[stale_[i]]);
-  });
-}
-
-template <class Update, class Semantics, class Clearance>
-void VoxelMap<Update, Semantics, Clearance>::refresh(const Eigen::Vector3i& at, Block& block) const {
-  block.frontier = {};
-  block.navigable = {};
-  if (!block.free.any()) return;
-  block.frontier =
-      block.free & beside([&](int x, int y, int z) { return unexplored_in(at + Eigen::Vector3i(x, y, z)); });
-  block.navigable =
-      block.free & ~dilation_([&](int x, int y, int z) {
-        const Block* b = blocks_.find(at + Eigen::Vector3i(x, y, z));
-        return b ? Clearance::in_the_way(b->free, b->occupied) : Clearance::beyond ? VoxelBits::all() : VoxelBits{};
-      });
-}
-
-template <class Update, class Semantics, class Clearance>
-std::vector<Region> VoxelMap<Update, Semantics, Clearance>::regions(frontier) const {
-  std::vector<Region> found;
-  const auto is_free = [&](const Eigen::Vector3i& v) { return grid_.contains(v) && state(v) == Space::free; };
-  const auto is_unexplored = [&](const Eigen::Vector3i& v) { return grid_.contains(v) && !explored(v); };
-  for (std::size_t s = 0; s < blocks_.count(); ++s)
-    blocks_[s].frontier.for_each([&](std::size_t local) {
-      const Eigen::Vector3i voxel = voxel_of(blocks_.known()[s], local);
-      Eigen::Vector3d free = Eigen::Vector3d::Zero(), away = Eigen::Vector3d::Zero();
-      for (int z = -1; z <= 1; ++z)
-        for (int y = -1; y <= 1; ++y)
-          for (int x = -1; x <= 1; ++x) {
-            const Eigen::Vector3i step(x, y, z);
-            if (step.isZero()) continue;
-            const Eigen::Vector3d unit = grid_.voxel_m().cwiseProduct(step.cast<double>()).normalized();
-            if (is_free(voxel + step)) free += unit;
-            if (step.squaredNorm() == 1 && is_unexplored(voxel + step)) away -= unit;
-          }
-      const Eigen::Vector3d normal = free.norm() > 1e-9   ? free.normalized()
-                                     : away.norm() > 1e-9 ? away.normalized()
-                                                          : Eigen::Vector3d::UnitZ().eval();
-      found.push_back({grid_.centre(voxel), normal});
-    });
-  return found;
-}
-
-template <class Update, class Semantics, class Clearance>
 void VoxelMap<Update, Semantics, Clearance>::save(Sink& sink) const {
   sink.put(std::string_view(signature()));
   sink.put(static_cast<std::uint64_t>(blocks_.count()));
@@ -425,7 +280,7 @@ void VoxelMap<Update, Semantics, Clearance>::load(Source& source) {
     loaded.blocks_.make(at);
     loaded.blocks_[static_cast<std::size_t>(n)] = b;
   }
-  for (std::size_t s = 0; s < loaded.blocks_.count(); ++s) loaded.refresh(loaded.blocks_.known()[s], loaded.blocks_[s]);
+  loaded.derive();
   *this = std::move(loaded);
 }
 
