@@ -12,14 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include <vantage/loop/clocks.hpp>
 #include <vantage/mission/plot.hpp>
-#include <vantage/sim/rgbd_world.hpp>
 
 #include "homes.hpp"
-#include "scene/explorer.hpp"
-#include "scene/first_views.hpp"
-#include "scene/referee.hpp"
 #include "statistics.hpp"
 #include "study_options.hpp"
 #include "table.hpp"
@@ -46,7 +41,7 @@ std::vector<Unit> plan_units(const ExploreOptions& o) {
   for (std::size_t s = 0; s < o.scene_count(); ++s)
     for (const std::string& method : o.methods)
       for (std::uint64_t run = 0; run < o.run_count(); ++run) {
-        const std::string name = o.scenes[s].filename().string();
+        const std::string name = scene::title_of(o.scenes[s]);
         units.push_back({concat("explore_", name, "_", method, "_", run),
                          {{"study", "explore"},
                           {"scene", name},
@@ -59,45 +54,26 @@ std::vector<Unit> plan_units(const ExploreOptions& o) {
   return units;
 }
 
-/// What a mission was worth after each step, by its clock.
-class History {
- public:
-  explicit History(const scene::Referee& referee) : referee_(referee) {}
-  template <class M, class Z>
-  void measured(const M&, const Situation& q, const Step<Z>& step) {
-    const auto note = [&](const char* name, double value) { json_[name].push_back(number(value)); };
-    note("elapsed_s", q.elapsed_s);
-    note("travelled_m", q.travelled_m);
-    note("coverage", referee_.fused().truth()->coverage());
-    note("planning_s", step.planning_s);
-    note("mapping_s", step.mapping_s);
-    note("planned", step.plan != nullptr ? 1 : 0);
-    json_["collisions"] = referee_.collisions();
-  }
-  [[nodiscard]] Json json() const { return json_; }
-
- private:
-  const scene::Referee& referee_;
-  Json json_ = Json::object();
-};
-
-Json explore(const ExploreOptions& o, const Json& p) {
+Json explore(const ExploreOptions& o, const Unit& unit) {
+  const Json& p = unit.parameters;
   scene::Options s;
-  for (const std::filesystem::path& path : o.scenes)
-    if (path.filename() == p["scene"].get<std::string>()) s.scene = path;
+  s.scene = home_named(p["scene"], o.scenes);
   s.seed = o.seed + p["run"].get<std::uint64_t>();
   s.method = p["method"];
+  s.map = "voxels";
   s.budget_s = p["budget_s"];
-  const scene::Input input = scene::load(s);
-  RgbdWorld world(*input.scene, Rng(s.seed).fork(1), s.sensor());
-  const std::vector<View> first = scene::look_all_around(input.start, deg(s.field_of_view_deg));
+  const MissionRecord record = fly(o, unit, s).record;
   Json result;
-  scene::explorer_of(s, input).with<RayCast>(s.method, s.stop_rule(), [&](auto loop, const auto& stop) {
-    scene::Referee referee(input, s);
-    History history(referee);
-    loop.run(world, input.start, first, stop, MeasuredClock{}, Rng(s.seed), referee, history);
-    result = history.json();
-  });
+  for (const StepRecord& step : record.steps) {
+    const auto note = [&](const char* name, double value) { result[name].push_back(number(value)); };
+    note("elapsed_s", step.elapsed_s);
+    note("travelled_m", step.travelled_m);
+    note("coverage", step.metric("coverage"));
+    note("planning_s", step.planning_s);
+    note("mapping_s", step.mapping_s);
+    note("planned", step.planned ? 1 : 0);
+  }
+  result["collisions"] = record.steps.back().metric("collisions");
   return result;
 }
 
@@ -268,7 +244,7 @@ void run(ExploreOptions o) {
     throw Error("--scenes", "no home is at hand",
                 "folders with a scene.json: examples/data/fetch_scenes --all gets some");
   run_study(
-      o, plan_units(o), std::cerr, [&](const Unit& u) { return explore(o, u.parameters); },
+      o, plan_units(o), std::cerr, [&](const Unit& u) { return explore(o, u); },
       [&](const Units& store) { write_tables(o, store); });
 }
 

@@ -3,10 +3,16 @@
 #pragma once
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
+#include <string>
 #include <system_error>
 #include <vector>
 
-#include "scene/input.hpp"
+#include <vantage/core/error.hpp>
+
+#include "scene/missions.hpp"
+#include "study_options.hpp"
+#include "units.hpp"
 
 namespace study {
 
@@ -19,6 +25,21 @@ inline std::vector<std::filesystem::path> fetched_scenes() {
     if (std::filesystem::exists(entry.path() / "scene.json")) found.push_back(entry.path());
   std::ranges::sort(found);
   return found;
+}
+
+/// The home of that name.
+inline std::filesystem::path home_named(const std::string& name, const std::vector<std::filesystem::path>& homes) {
+  for (const std::filesystem::path& home : homes)
+    if (scene::title_of(home) == name) return home;
+  throw vantage::Error("--scenes", "no home is called " + name);
+}
+
+/// Flies a mission, in silence; its report stays in a folder of the unit's name.
+inline scene::Mission fly(const Options& o, const Unit& unit, scene::Options mission) {
+  mission.out = o.out / "missions" / unit.name;
+  mission.keep_views = false;
+  std::ostream silent(nullptr);
+  return scene::fly_mission(mission, scene::load(mission), silent);
 }
 
 }  // namespace study

@@ -13,15 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include <vantage/mission/command_line.hpp>
 #include <vantage/mission/plot.hpp>
-#include <vantage/sim/rgbd_world.hpp>
 
 #include "homes.hpp"
-#include "scene/first_views.hpp"
-#include "scene/reconstructor.hpp"
-#include "scene/referee.hpp"
-#include "scene/surfel_judge.hpp"
 #include "statistics.hpp"
 #include "study_options.hpp"
 #include "table.hpp"
@@ -51,7 +45,7 @@ std::vector<Unit> plan_units(const SceneOptions& o) {
     for (std::size_t s = 0; s < o.scene_count(); ++s)
       for (const std::string& clock : o.clocks)
         for (const std::string& method : o.methods) {
-          const std::string name = o.scenes[s].filename().string();
+          const std::string name = scene::title_of(o.scenes[s]);
           units.push_back({concat("scene_", name, "_", method, "_", clock, "_", run),
                            {{"study", "scene"},
                             {"scene", name},
@@ -66,59 +60,35 @@ std::vector<Unit> plan_units(const SceneOptions& o) {
   return units;
 }
 
-/// What a mission cost, step by step.
-struct Costs {
-  double planning_s = 0, mapping_s = 0, way_m = 0;
-  std::size_t views = 0, plans = 0, surfels = 0;
-
-  template <class M, class Z>
-  void measured(const M& map, const Situation& q, const Step<Z>& step) {
-    planning_s += step.planning_s, mapping_s += step.mapping_s, way_m = q.travelled_m;
-    ++views, plans += step.plan != nullptr ? 1 : 0;
-    surfels = map.surfels().size();
-  }
-};
-
-Json reconstruct(const SceneOptions& o, const Json& p) {
+Json reconstruct(const SceneOptions& o, const Unit& unit) {
+  const Json& p = unit.parameters;
   scene::Options s;
-  for (const std::filesystem::path& path : o.scenes)
-    if (path.filename() == p["scene"].get<std::string>()) s.scene = path;
+  s.scene = home_named(p["scene"], o.scenes);
   s.seed = o.seed + p["run"].get<std::uint64_t>();
-  const std::string method = p["method"];
+  s.method = p["method"];
+  s.preset = PresetKind::reference;
+  if (s.method == "ours_thesis") s.method = "ours", s.preset = PresetKind::thesis;
   s.map = "surfels";
+  s.clock = p["clock"] == "real" ? ClockKind::real : ClockKind::modelled;
   s.budget_s = p["budget_s"];
   s.test_views = p["test_views"];
   s.judge_every_s = judged_every_s;
-  const scene::Input input = scene::load(s);
-  RgbdWorld world(*input.scene, Rng(s.seed).fork(1), s.sensor());
+  const scene::Mission mission = fly(o, unit, s);
   Json result;
-  const auto fly = [&](auto loop) {
-    scene::Referee referee(input, s);
-    scene::SurfelJudge judge(input, s);
-    Costs costs;
-    MissionClock clock(p["clock"] == "real" ? ClockKind::real : ClockKind::modelled, scene::published_costs);
-    loop.run(world, input.start, scene::turn_around(input.start, deg(s.field_of_view_deg)), s.stop_rule(), clock,
-             Rng(s.seed), referee, judge, costs);
-    const auto note = [&](const scene::SurfelJudge::Score& score) {
-      result["elapsed_s"].push_back(score.elapsed_s);
-      result["psnr"].push_back(number(score.psnr_db));
-      result["completeness"].push_back(number(score.completeness));
-    };
-    for (const scene::SurfelJudge::Score& score : judge.scores()) note(score);
-    note(judge.judge(loop.map, clock.elapsed_s()));
-    result["coverage"] = referee.fused().truth()->coverage();
-    result["collisions"] = referee.collisions();
-    result["views"] = costs.views;
-    result["surfels"] = costs.surfels;
-    result["way_m"] = costs.way_m;
-    result["planning_s"] = number(costs.planning_s / static_cast<double>(std::max<std::size_t>(costs.plans, 1)));
-    result["mapping_s"] = number(costs.mapping_s / static_cast<double>(std::max<std::size_t>(costs.views, 1)));
-  };
-  const scene::Reconstructor reconstructor = scene::reconstructor_of(s, input);
-  if (method == "ours_thesis")
-    fly(reconstructor.ours<preset::thesis>());
-  else
-    reconstructor.with<preset::reference>(method, fly);
+  for (const scene::Score& score : mission.scores) {
+    result["elapsed_s"].push_back(score.elapsed_s);
+    result["psnr"].push_back(number(score.psnr_db));
+    result["completeness"].push_back(number(score.completeness));
+  }
+  double planning_s = 0, mapping_s = 0, plans = 0;
+  for (const StepRecord& step : mission.record.steps)
+    planning_s += step.planning_s, mapping_s += step.mapping_s, plans += step.planned ? 1 : 0;
+  const StepRecord& last = mission.record.steps.back();
+  for (const char* name : {"coverage", "collisions", "surfels"}) result[name] = number(last.metric(name));
+  result["views"] = last.index;
+  result["way_m"] = last.travelled_m;
+  result["planning_s"] = planning_s / std::max(plans, 1.0);
+  result["mapping_s"] = mapping_s / static_cast<double>(last.index);
   return result;
 }
 
@@ -148,7 +118,7 @@ void add(Runs& runs, const Json& result, const std::vector<double>& grid) {
 std::vector<Runs> collect(const SceneOptions& o, const Units& store, const std::vector<double>& grid) {
   std::vector<Runs> all;
   std::vector<std::string> scenes = {"all"};
-  for (std::size_t s = 0; s < o.scene_count(); ++s) scenes.push_back(o.scenes[s].filename().string());
+  for (std::size_t s = 0; s < o.scene_count(); ++s) scenes.push_back(scene::title_of(o.scenes[s]));
   for (const std::string& scene : scenes)
     for (const std::string& clock : o.clocks)
       for (const std::string& method : o.methods)
@@ -270,7 +240,7 @@ void run(SceneOptions o) {
     throw Error("--scenes", "no home is at hand",
                 "folders with a scene.json: examples/data/fetch_scenes --all gets some");
   run_study(
-      o, plan_units(o), std::cerr, [&](const Unit& u) { return reconstruct(o, u.parameters); },
+      o, plan_units(o), std::cerr, [&](const Unit& u) { return reconstruct(o, u); },
       [&](const Units& store) { write_tables(o, store); });
 }
 

@@ -53,7 +53,7 @@ inline Picture strip(const Frame& frame, double range_m, int width = 300) {
 }
 
 /// Observer that writes what the camera saw, as a recording which can be replayed: colour/, depth/, labels/, poses.txt
-/// and camera.txt. Depth in quarter millimetres, or coarser if it goes beyond 16 m. Keeps strips of colour, depth and
+/// and camera.txt; no folder, no files. Depth in quarter millimetres, or coarser if it goes beyond 16 m. Keeps strips of colour, depth and
 /// labels in memory, of every k-th frame, so that there are `most_strips` at most.
 class Album {
  public:
@@ -68,6 +68,27 @@ class Album {
     saw(step.index, step.measurement);
   }
   void saw(std::uint64_t index, const Frame& f) {
+    if (!folder_.empty()) write(index, f);
+    if ((index - 1) % every_ != 0) return;
+    if (strips_.size() == most_) {  // too many: from now on every other one
+      every_ *= 2;
+      for (std::size_t i = 1; 2 * i < strips_.size(); ++i) strips_[i] = std::move(strips_[2 * i]);
+      strips_.erase(strips_.begin() + static_cast<std::ptrdiff_t>((strips_.size() + 1) / 2), strips_.end());
+      if ((index - 1) % every_ != 0) return;
+    }
+    strips_.push_back({index, f.view, f.camera, strip(f, range_m_)});
+  }
+
+  struct Strip {
+    std::uint64_t index;
+    View view;
+    Camera camera;
+    Picture picture;
+  };
+  [[nodiscard]] const std::vector<Strip>& strips() const { return strips_; }
+
+ private:
+  void write(std::uint64_t index, const Frame& f) {
     char name[32];
     std::snprintf(name, sizeof name, "%04u.png", static_cast<unsigned>(index));
     if (poses_.empty()) {
@@ -92,26 +113,7 @@ class Album {
         poses_ += concat(number, row == 3 && column == 3 ? "\n" : " ");
       }
     write_file(folder_ / "poses.txt", poses_);
-
-    if ((index - 1) % every_ != 0) return;
-    if (strips_.size() == most_) {  // too many: from now on every other one
-      every_ *= 2;
-      for (std::size_t i = 1; 2 * i < strips_.size(); ++i) strips_[i] = std::move(strips_[2 * i]);
-      strips_.erase(strips_.begin() + static_cast<std::ptrdiff_t>((strips_.size() + 1) / 2), strips_.end());
-      if ((index - 1) % every_ != 0) return;
-    }
-    strips_.push_back({index, f.view, f.camera, strip(f, range_m_)});
   }
-
-  struct Strip {
-    std::uint64_t index;
-    View view;
-    Camera camera;
-    Picture picture;
-  };
-  [[nodiscard]] const std::vector<Strip>& strips() const { return strips_; }
-
- private:
   std::filesystem::path folder_;
   double range_m_, depth_unit_m_;
   std::size_t most_, every_ = 1;

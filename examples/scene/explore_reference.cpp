@@ -4,6 +4,6 @@
 
 namespace scene {
 
-template void explore<Projective>(const Options&, const Input&);
+template Mission explore<Projective>(const Options&, const Input&, std::ostream&);
 
 }  // namespace scene

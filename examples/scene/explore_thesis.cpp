@@ -4,6 +4,6 @@
 
 namespace scene {
 
-template void explore<RayCast>(const Options&, const Input&);
+template Mission explore<RayCast>(const Options&, const Input&, std::ostream&);
 
 }  // namespace scene

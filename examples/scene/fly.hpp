@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <iostream>
 #include <iterator>
+#include <ostream>
 #include <vector>
 
 #include <vantage/loop/clocks.hpp>
@@ -34,10 +34,10 @@ struct Flown {
 /// `judges` are further Persistent observers with metrics. Pictures and what is fused of them is not kept: the world
 /// shows the same again.
 template <class Loop, class Stop, class... Judges>
-Flown fly(const Options& o, const Input& input, Loop& loop, Views first, const Stop& stop,
+Flown fly(const Options& o, const Input& input, std::ostream& log, Loop& loop, Views first, const Stop& stop,
           const ModelledClock::Config& costs, Judges&... judges) {
   RgbdWorld world(*input.scene, Rng(o.seed).fork(1), o.sensor());
-  Flown flown{.referee = Referee(input, o), .album = Album(o.out / "views", o.range_m)};
+  Flown flown{.referee = Referee(input, o), .album = Album(o.keep_views ? o.out / "views" : "", o.range_m)};
   MissionClock clock(o.clock, costs);
   MissionState state{.here = input.start, .rng = Rng(o.seed)};
   Recorder recorder(
@@ -49,14 +49,14 @@ Flown fly(const Options& o, const Input& input, Loop& loop, Views first, const S
       });
   Checkpoint checkpoint(CheckpointConfig{.file = o.out / "mission.checkpoint", .most_share = 0.03}, recorder,
                         flown.referee, judges...);
-  Progress progress(recorder.record(), std::cerr,
+  Progress progress(recorder.record(), log,
                     {.budget_s = o.most_time_s(),
                      .budget_steps = o.measurements,
                      .terminal_fd = STDERR_FILENO,
                      .utf8 = locale_is_utf8()});
 
   if (o.resume && checkpoint.load(loop, world, clock, state)) {
-    std::cerr << "resumed after step " << state.visited.size() << '\n';
+    log << "resumed after step " << state.visited.size() << '\n';
     RgbdWorld again = world;
     for (std::size_t i = 0; i < state.visited.size(); ++i) {
       const Frame frame = *again.observe(state.visited[i]);
@@ -64,6 +64,7 @@ Flown fly(const Options& o, const Input& input, Loop& loop, Views first, const S
       flown.album.saw(i + 1, frame);
     }
   }
+  first = first.first(std::min<std::size_t>(first.size(), o.measurements));
   RefineInFlight refine{o.refine_per_s};
   loop.resume(world, state, first, stop, clock, refine, flown.referee, judges..., recorder, flown.album, progress,
               checkpoint);

@@ -16,6 +16,16 @@ namespace scene {
 
 using namespace vantage;
 
+/// The volume in which a scene is fused: its bounds, and enough around them that what lies on them has two sides.
+inline Tsdf::Config around(const Box3& bounds, double voxel_m, bool colour = true) {
+  const double truncation_m = 5 * voxel_m;
+  const Eigen::Vector3d margin = Eigen::Vector3d::Constant(truncation_m);
+  return {.bounds = Box3(bounds.min() - margin, bounds.max() + margin),
+          .voxel_m = voxel_m,
+          .truncation_m = truncation_m,
+          .colour = colour};
+}
+
 /// The map of a look-around: all depth fused, and which part of the true surface that was. It learns nothing that a
 /// utility could ask for; chapter 6's map does.
 class FusedMap {

@@ -131,6 +131,12 @@ inline void look_again(Input& input, const Options& o) {
       Box3(input.bounds.min() - Eigen::Vector3d::Constant(0.1), input.bounds.max() + Eigen::Vector3d::Constant(0.1));
 }
 
+/// What a file or folder is called, with or without a slash at the end.
+inline std::string title_of(const std::filesystem::path& path) {
+  const std::filesystem::path p = path.lexically_normal();
+  return (p.has_filename() ? p : p.parent_path()).filename().string();
+}
+
 /// Where examples/data/fetch_scenes puts the homes.
 inline std::filesystem::path default_scene() {
   return std::filesystem::path(__FILE__).parent_path().parent_path() / "data" / "scenes" / "Studio";
@@ -139,11 +145,15 @@ inline std::filesystem::path default_scene() {
 /// What was asked for; without any of it, the home that fetch_scenes gets, or a procedural room with a note.
 inline Input load(const Options& o) {
   Input input;
+  const auto add = [&](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes)
+      input.note += concat(input.note.empty() ? "" : " ", note, note.ends_with('.') ? "" : ".");
+  };
   if (!o.recording.empty()) {
     input.recording = read_posed(o.recording, o.range_m);
-    input.name = o.recording.filename().string();
+    input.name = title_of(o.recording);
     input.note = concat("A recording of ", input.recording->size(), " frames.");
-    for (const std::string& note : input.recording->notes()) input.note += " " + note;
+    add(input.recording->notes());
     look_again(input, o);
     return input;
   }
@@ -154,12 +164,13 @@ inline Input load(const Options& o) {
     input.name = concat(models.size(), models.size() == 1 ? " object" : " objects");
     input.note = "Models on a ground plane, at random places and headings.";
     input.scene = std::move(composed.scene);
+    add(input.scene->notes);
     look_from_around(input, composed.bounds, o);
     return input;
   }
   const std::filesystem::path file = o.scene.empty() && !o.room ? default_scene() : o.scene;
   if (!file.empty() && (!o.scene.empty() || std::filesystem::exists(file))) {
-    input.name = file.filename().string();
+    input.name = title_of(file);
     input.scene = read_scene(file);
   } else {
     const std::uint64_t seed = o.room.value_or(o.seed);
@@ -168,7 +179,7 @@ inline Input load(const Options& o) {
     if (!o.room) input.note += " No home was at hand: examples/data/fetch_scenes gets some when there is a network.";
     input.scene = procedural_room({}, Rng(seed)).scene;
   }
-  for (const std::string& note : input.scene->notes) input.note += (input.note.empty() ? "" : " ") + note;
+  add(input.scene->notes);
   look_from_inside(input, o);
   return input;
 }

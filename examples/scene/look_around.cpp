@@ -5,7 +5,6 @@
 // into a mesh, and compared with the truth. The views are chosen without a map.
 #include <unistd.h>
 
-#include <iostream>
 #include <optional>
 #include <utility>
 
@@ -29,44 +28,42 @@ namespace scene {
 namespace {
 
 template <class World, class Utility, class Selector>
-void fly(const Options& o, const Input& input, World& world, Utility utility, Selector selector) {
+Mission fly(const Options& o, const Input& input, std::ostream& log, World& world, Utility utility, Selector selector) {
   std::optional<SurfaceCoverage> truth;
   if (input.surface.size() != 0) truth.emplace(input.surface);
   const bool colour = !input.recording || !input.recording->frames().front().colour.empty();
-  NbvLoop loop{FusedMap({.bounds = input.bounds, .voxel_m = o.voxel_m, .truncation_m = 5 * o.voxel_m, .colour = colour},
-                        std::move(truth)),
+  NbvLoop loop{FusedMap(around(input.bounds, o.voxel_m, colour), std::move(truth)),
                std::move(utility), Pool(input.views), std::move(selector)};
 
   MissionClock clock(o.clock);
   Recorder recorder(
       RecorderConfig{.file = o.out / "mission.json", .config = config(o, input), .seed = o.seed, .with_prior = false},
       Judge{input, o.threshold_m});
-  Album album(o.out / "views", o.range_m);
+  Album album(o.keep_views ? o.out / "views" : "", o.range_m);
   Progress progress(
-      recorder.record(), std::cerr,
-      {.budget_s = o.budget_s, .budget_steps = o.measurements, .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
+      recorder.record(), log,
+      {.budget_s = o.budget_s, .budget_steps = o.most_measurements().value_or(o.measurements), .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
   loop.run(world, input.start, Views(&input.start, 1), o.stop_rule(), clock, Rng(o.seed), recorder, album, progress);
   write_results(o, input, loop.map, album, recorder.record());
+  return {.record = recorder.record()};
 }
 
 template <class World>
-void choose(const Options& o, const Input& input, World&& world) {
+Mission choose(const Options& o, const Input& input, std::ostream& log, World&& world) {
   if (o.method == "max_view_distance")
-    fly(o, input, world, ViewDistance<Nearest>{}, ArgMax{});
-  else if (o.method == "random")
-    fly(o, input, world, Uninformed{}, ArgMax{});
-  else
-    fly(o, input, world, Uninformed{}, InOrder{});
+    return fly(o, input, log, world, ViewDistance<Nearest>{}, ArgMax{});
+  if (o.method == "random") return fly(o, input, log, world, Uninformed{}, ArgMax{});
+  return fly(o, input, log, world, Uninformed{}, InOrder{});
 }
 
 }  // namespace
 
-void look_around(const Options& o, const Input& input) {
+Mission look_around(const Options& o, const Input& input, std::ostream& log) {
   if (input.recording)
-    choose(o, input,
-           ReplayWorld(input.views, [&](std::size_t i) { return within(input.recording->frame(i), o.range_m); }));
-  else
-    choose(o, input, RgbdWorld(*input.scene, Rng(o.seed).fork(1), o.sensor()));
+    return choose(
+        o, input, log,
+        ReplayWorld(input.views, [&](std::size_t i) { return within(input.recording->frame(i), o.range_m); }));
+  return choose(o, input, log, RgbdWorld(*input.scene, Rng(o.seed).fork(1), o.sensor()));
 }
 
 }  // namespace scene

@@ -59,6 +59,7 @@ struct Options : MissionOptions {
   int test_views = 100;
   double judge_every_s = 60;
   double refine_per_s = 0;
+  bool keep_views = true;
 
   Options() {
     out = "out/scene";
@@ -114,10 +115,14 @@ inline void add_options(CLI::App& app, Options& o) {
       ->type_name("SEED");
   app.add_option("--start", o.start, "Where the camera starts (default: where the scene says)")
       ->expected(3)
+      ->check(vantage::detail::between(-1e6, 1e6))
       ->type_name("X Y Z");
   const auto number = [&](const char* name, double& value, const char* about, double low, double high,
                           const char* unit) {
-    app.add_option(name, value, about)->check(CLI::Range(low, high))->capture_default_str()->type_name(unit);
+    app.add_option(name, value, about)
+        ->check(vantage::detail::between(low, high))
+        ->capture_default_str()
+        ->type_name(unit);
   };
   app.add_option("--pixels", o.pixels, "Width and height of the simulated camera")
       ->check(CLI::Range(16, 4096))
@@ -130,7 +135,7 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--voxel", o.voxel_m, "Voxels of the reconstruction", 0.001, 1, "METRES");
   app.add_option("--map-voxel", o.map_voxel_m,
                  "Voxels of the map that a robot flies by (default: 0.05; of surfels 0.2)")
-      ->check(CLI::Range(0.01, 1.0))
+      ->check(vantage::detail::between(0.01, 1.0))
       ->type_name("METRES");
   app.add_option("--map", o.map, "What fbe and random learn (default: voxels; the methods of surfels learn both)")
       ->check(CLI::IsMember({"voxels", "surfels"}))
@@ -142,6 +147,7 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--judge-every", o.judge_every_s, "Mission time between judgements of surfels", 1, 1e6, "SECONDS");
   number("--refine", o.refine_per_s, "Iterations that surfels are trained on for every second of flight", 0, 1000,
          "PER_S");
+  app.add_flag("!--no-views", o.keep_views, "Keep no files of what the camera saw");
   number("--speed", o.speed_m_s, "How fast an explorer flies", 0.01, 100, "METRES/S");
   number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
 }
@@ -155,6 +161,7 @@ inline void validate(const Options& o) {
   if (o.needs_surfels() && o.map == "voxels") throw Error("--map", concat("voxels for ", o.method), "surfels");
   if (o.map == "surfels" && !o.needs_surfels() && !o.is({"fbe", "random"}))
     throw Error("--map", concat("surfels for ", o.method), "fbe or random, or a method of surfels");
+  if (!o.start.empty() && !o.can_explore()) throw Error("--start", "views are given", "--scene or --room");
   if (o.resume && !o.explores()) throw Error("--resume", "a look-around keeps no checkpoint", "a run from the start");
 }
 

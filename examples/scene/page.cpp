@@ -46,6 +46,10 @@ void Page::add_mesh(const TriangleMesh& mesh, const Album& album) {
 }
 
 void Page::add_views(const Album& album) {
+  for (const auto& entry : std::filesystem::directory_iterator(options.out)) {  // of an earlier, longer mission
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("view_") && name.ends_with(".png")) std::filesystem::remove(entry.path());
+  }
   for (const Album::Strip& s : album.strips())
     add(concat("view_", s.index, ".png"), concat("View ", s.index),
         "Colour, depth (bright is far) and class, as far as the sensor has them.", s.picture);

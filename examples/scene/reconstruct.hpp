@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <utility>
 #include <vector>
 
 #include <vantage/io/splat_ply.hpp>
@@ -18,11 +19,12 @@ namespace scene {
 /// A robot reconstructs a scene that it does not know with surfels: it trains them on every frame, and flies where its
 /// voxels are free.
 template <class Preset>
-void reconstruct(const Options& o, const Input& input) {
+Mission reconstruct(const Options& o, const Input& input, std::ostream& log) {
+  Mission mission;
   const std::vector<View> first = turn_around(input.start, deg(o.field_of_view_deg));
   reconstructor_of(o, input).with<Preset>(o.method, [&](auto loop) {
     SurfelJudge judge(input, o);
-    const Flown flown = fly(o, input, loop, first, o.stop_rule(), published_costs, judge);
+    Flown flown = fly(o, input, log, loop, first, o.stop_rule(), published_costs, judge);
 
     Reconstruction result{.scores = judge.scores(), .mesh = surface_of(loop.map, input.bounds, o.voxel_m)};
     result.scores.push_back(judge.judge(loop.map, flown.record.steps.back().elapsed_s));
@@ -31,11 +33,13 @@ void reconstruct(const Options& o, const Input& input) {
     write_splat_ply(o.out / "splats.ply", loop.map.surfels());
     write_surfel_ply(o.out / "surfels.ply", loop.map.surfels());
     write_reconstruction(o, input, flown.referee, result, flown.album, flown.record);
+    mission = {.record = std::move(flown.record), .scores = std::move(result.scores)};
   });
+  return mission;
 }
 
 // Compiled apart, in reconstruct_thesis.cpp and reconstruct_reference.cpp.
-extern template void reconstruct<preset::thesis>(const Options&, const Input&);
-extern template void reconstruct<preset::reference>(const Options&, const Input&);
+extern template Mission reconstruct<preset::thesis>(const Options&, const Input&, std::ostream&);
+extern template Mission reconstruct<preset::reference>(const Options&, const Input&, std::ostream&);
 
 }  // namespace scene

@@ -4,6 +4,6 @@
 
 namespace scene {
 
-template void reconstruct<preset::reference>(const Options&, const Input&);
+template Mission reconstruct<preset::reference>(const Options&, const Input&, std::ostream&);
 
 }  // namespace scene

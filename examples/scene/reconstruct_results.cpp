@@ -44,11 +44,11 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
            concat("a ball of ", short_number(100 * o.body_radius_m), " cm")}};
 }
 
-Plot curve(const std::vector<SurfelJudge::Score>& scores, std::string title, std::string unit,
-           double SurfelJudge::Score::*value) {
+Plot curve(const std::vector<Score>& scores, std::string title, std::string unit,
+           double Score::*value) {
   Plot plot{.title = std::move(title), .x_label = "mission time [s]", .y_label = std::move(unit), .curves = {}};
   Curve& c = plot.curves.emplace_back();
-  for (const SurfelJudge::Score& s : scores) {
+  for (const Score& s : scores) {
     c.x.push_back(s.elapsed_s);
     c.y.push_back(s.*value);
   }
@@ -80,10 +80,10 @@ void write_reconstruction(const Options& o, const Input& input, const Referee& r
   page.add_mesh(result.mesh, album);
   page.add_views(album);
   report.plots.push_back(
-      curve(result.scores, "Renderings against the truth", "PSNR [dB]", &SurfelJudge::Score::psnr_db));
+      curve(result.scores, "Renderings against the truth", "PSNR [dB]", &Score::psnr_db));
   report.plots.back().from_zero = false;
   report.plots.push_back(curve(result.scores, concat("Surface within ", short_number(100 * o.threshold_m), " cm"),
-                               "completeness", &SurfelJudge::Score::completeness));
+                               "completeness", &Score::completeness));
   report.plots.back().y_least_top = 1;
   report.plots.push_back(
       metric_plot(record, "Of the surface that can be seen, and of the box", "share", {"coverage", "explored"}));

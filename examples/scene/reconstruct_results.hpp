@@ -15,7 +15,7 @@ namespace scene {
 
 /// What became of a reconstruction with surfels.
 struct Reconstruction {
-  std::vector<SurfelJudge::Score> scores;  ///< over mission time; the last is that of the end
+  std::vector<Score> scores;  ///< over mission time; the last is that of the end
   TriangleMesh mesh;
   std::vector<Picture> comparisons = {};  ///< rendered, truth, confidence, normals, side by side
 };

@@ -4,6 +4,6 @@
 
 namespace scene {
 
-template void reconstruct<preset::thesis>(const Options&, const Input&);
+template Mission reconstruct<preset::thesis>(const Options&, const Input&, std::ostream&);
 
 }  // namespace scene

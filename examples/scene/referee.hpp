@@ -23,8 +23,7 @@ namespace scene {
 class Referee {
  public:
   Referee(const Input& input, const Options& o)
-      : fused_({.bounds = input.bounds, .voxel_m = o.voxel_m, .truncation_m = 5 * o.voxel_m},
-               SurfaceCoverage(input.surface)),
+      : fused_(around(input.bounds, o.voxel_m), SurfaceCoverage(input.surface)),
         robot_(CollisionScene(input.scene->mesh), shape::Sphere{o.body_radius_m}),
         low_m_(input.bounds.min().z() + 0.2),
         high_m_(input.bounds.max().z() - 0.4) {}

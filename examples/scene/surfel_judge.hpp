@@ -19,14 +19,16 @@
 #include <vantage/mission/record.hpp>
 #include <vantage/sim/scene_renderer.hpp>
 
+#include "fused_map.hpp"
 #include "input.hpp"
+#include "missions.hpp"
 
 namespace scene {
 
 /// The surface of a surfel map: its depth and colour, rendered where frames were taken, fused.
 template <class M>
 TriangleMesh surface_of(const M& map, const Box3& bounds, double voxel_m) {
-  Tsdf volume({.bounds = bounds, .voxel_m = voxel_m, .truncation_m = 5 * voxel_m, .colour = true});
+  Tsdf volume(around(bounds, voxel_m));
   Rng unused;
   for (const auto& taken : map.frames()) {
     Rendering<channel::Colour, channel::Depth, channel::Opacity> image;
@@ -43,12 +45,6 @@ TriangleMesh surface_of(const M& map, const Box3& bounds, double voxel_m) {
 /// and how complete its surface is (section 6.2.1). What it does is not counted as mission time. Persistent.
 class SurfelJudge {
  public:
-  struct Score {
-    double elapsed_s = 0;
-    double psnr_db = 0;       ///< mean over test views
-    double completeness = 0;  ///< share of the surface within the threshold of the mesh
-  };
-
   SurfelJudge(const Input& input, const Options& o)
       : input_(input),
         options_(o),

@@ -50,6 +50,11 @@ TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
   EXPECT_NE(text_of(a / "report.html").find("</html>"), std::string::npos);
 }
 
+TEST_F(ExploreMission, TakesNoMoreMeasurementsThanItIsTold) {
+  ASSERT_EQ(run(room + " --method fbe --measurements 2" + out("a")).code, 0);
+  EXPECT_EQ(mission("a")["steps"].size(), 2u);
+}
+
 TEST_F(ExploreMission, EndsWhenNoFrontierIsLeft) {
   ASSERT_EQ(
       run("--room 1 --method fbe --pixels 256 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.08" +

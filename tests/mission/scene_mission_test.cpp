@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -101,6 +102,37 @@ TEST_F(SceneMission, LooksAtObjectsFromAround) {
     EXPECT_EQ(text_of(folder.path / "a" / picture).substr(1, 3), "PNG") << picture;
 }
 
+// Floor and walls lie on the bounds of the scene: the volume in which they are fused must go on behind them. Three views,
+// then two, of a folder named with a slash at its end.
+TEST_F(SceneMission, FusesTheWallsOfARoom) {
+  std::filesystem::create_directory(folder.path / "hall");
+  std::ofstream(folder.path / "hall" / "scene.json")
+      << R"({"room": {"min": [-2, -2, 0], "max": [2, 2, 3], "colour": [0.9, 0.9, 0.8]}, "boxes": [], "start": [0, 0, 1.5]})";
+  for (const std::string voxel : {"0.02", "0.05"}) {
+    const std::string common = "--scene '" + (folder.path / "hall/").string() +
+                               "' --depth-noise 0 --method max_view_distance --voxel " + voxel + out("a");
+    ASSERT_EQ(run(common + measuring(20)).code, 0);
+    const auto json = mission("a");
+    EXPECT_EQ(json["config"]["input"], "hall");
+    const auto last = json["steps"].back()["metrics"];
+    EXPECT_GT(last["coverage"].get<double>(), 0.5) << voxel;
+    EXPECT_GT(last["completeness"].get<double>(), 0.85 * last["coverage"].get<double>()) << voxel;
+    EXPECT_TRUE(std::filesystem::exists(folder.path / "a" / "view_19.png"));
+    ASSERT_EQ(run(common + measuring(2)).code, 0);
+    EXPECT_FALSE(std::filesystem::exists(folder.path / "a" / "view_19.png")) << "of the mission before";
+  }
+}
+
+TEST_F(SceneMission, NamesWhatAnObjectLacks) {
+  std::ofstream(folder.path / "bare.obj") << "mtllib lost.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                                             "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+  const Ended e =
+      run("--no-views --object '" + (folder.path / "bare.obj").string() + "' --range 20" + measuring(1) + out("a"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  EXPECT_NE(e.err.find("lost.mtl"), e.err.npos) << e.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "a" / "views"));
+}
+
 TEST_F(SceneMission, BadInputIsOneLineAndCodeTwo) {
   const auto refused = [&](const std::string& arguments, const std::string& says) {
     const Ended e = run(arguments + out("x"));
@@ -114,6 +146,9 @@ TEST_F(SceneMission, BadInputIsOneLineAndCodeTwo) {
   refused("--room 1 --start 0 0 -5", "start");
   refused("--room 1 --method max_view_distance --resume", "--resume");
   refused("--room 1 --method magic", "--method");
+  refused("--room 1 --threshold nan", "--threshold");
+  refused("--room 1 --start nan 0 1", "--start");
+  EXPECT_FALSE(std::filesystem::exists(folder.path / "x")) << "nothing was made of bad input";
   std::ofstream(folder.path / "empty.obj") << "v 0 0 0\n";
   refused("--scene '" + (folder.path / "empty.obj").string() + "'", "empty.obj");
 }

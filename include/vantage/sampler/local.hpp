@@ -19,7 +19,7 @@
 namespace vantage {
 
 /// Random views around the robot (section 6.1.5, and its ablation without regions of interest): from the centres of
-/// navigable voxels within a radius, in all directions alike, without roll. The first is from where the robot stands,
+/// navigable voxels within a radius, in all directions alike, without roll. The last is from where the robot stands,
 /// so that one that cannot go anywhere yet looks around; with no such voxel, all are. Costs one look at the blocks
 /// within the radius.
 class Local {
@@ -52,7 +52,7 @@ class Local {
     std::vector<Eigen::Vector3d> positions;
     for_each_in_cone(map, around, ball, [&](const auto& voxel) { positions.push_back(map.grid().centre(voxel)); });
     for (std::size_t i = 0; i < n; ++i) {
-      const bool stays = i == 0 || positions.empty();
+      const bool stays = i + 1 == n || positions.empty();
       const Eigen::Vector3d eye = stays ? q.here.position() : positions[rng.index(positions.size())];
       views.push_back(look_at(eye, eye + direction(rng)));
     }
