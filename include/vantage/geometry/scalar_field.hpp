@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,6 +35,8 @@ struct FieldSample {
 struct FieldSamples {
   std::vector<FieldSample> samples;
   Quantity quantity;
+  /// Of longitudes and latitudes: the latitude by whose cosine x is shortened; lengths are in degrees of latitude.
+  std::optional<double> latitude_deg = {};
 };
 
 /// A scalar field that is known everywhere, as a raster over a rectangle of the plane z = 0: the truth of a world.

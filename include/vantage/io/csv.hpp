@@ -18,6 +18,7 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/io/file.hpp>
+#include <vantage/io/number.hpp>
 #include <vantage/io/printable.hpp>
 
 namespace vantage {
@@ -47,15 +48,16 @@ class CsvTable {
     const auto it = std::find(names_.begin(), names_.end(), name);
     if (it != names_.end()) return static_cast<std::size_t>(it - names_.begin());
     std::string all;
-    for (const std::string& n : names_) all += (all.empty() ? "" : ", ") + n;
-    throw Error(where_, concat("no column '", name, "'"), "one of " + all.substr(0, 400));
+    for (const std::string& n : names_) all += (all.empty() ? "" : ", ") + printable(n, 40);
+    throw Error(where_, concat("no column '", printable(name, 40), "'"), "one of " + all.substr(0, 400));
   }
   /// A column's numbers, one a row; NaN where the field was empty or NA. Throws Error, naming the line, if one of them
   /// is no finite number.
   [[nodiscard]] std::span<const double> column(std::size_t index) const {
     const Column& c = columns_.at(index);
     if (c.bad_line != 0)
-      throw Error(concat(where_, ":", c.bad_line), concat(c.complaint, " in column '", names_[index], "'"),
+      throw Error(concat(where_, ":", c.bad_line),
+                  concat(c.complaint, " in column '", printable(names_[index], 40), "'"),
                   "a finite number, or nothing");
     return c.values;
   }
@@ -121,6 +123,12 @@ class CsvParser {
       if (name.empty()) refuse(concat("column ", index + 1, " has no name"), "a name for each column");
       table_.names_.emplace_back(name);
     });
+    const auto is_number = [](std::string_view name) {
+      double unused = 0;
+      return take_number(name, unused) && name.empty();
+    };
+    if (std::all_of(table_.names_.begin(), table_.names_.end(), is_number))
+      refuse("numbers only", "a line of column names");
     std::unordered_set<std::string_view> seen;
     for (const std::string& name : table_.names_)
       if (!seen.insert(name).second)
@@ -223,9 +231,9 @@ inline std::string format_csv(std::span<const std::string> names, std::span<cons
   std::string text;
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (names[c].empty() || names[c].find_first_of("\",\r\n") != std::string::npos)
-      throw Error("format_csv", concat("the name '", names[c], "'"), "no quote, comma or line break");
+      throw Error("format_csv", concat("the name '", printable(names[c], 40), "'"), "no quote, comma or line break");
     if (columns[c].size() != columns[0].size())
-      throw Error("format_csv", concat("column '", names[c], "' has ", columns[c].size(), " rows"),
+      throw Error("format_csv", concat("column '", printable(names[c], 40), "' has ", columns[c].size(), " rows"),
                   concat(columns[0].size()));
     (text += c ? "," : "") += names[c];
   }
@@ -235,7 +243,8 @@ inline std::string format_csv(std::span<const std::string> names, std::span<cons
       if (c) text += ',';
       const double v = columns[c][row];
       if (std::isinf(v))
-        throw Error("format_csv", concat("an infinite value in column '", names[c], "', row ", row), "finite, or NaN");
+        throw Error("format_csv", concat("an infinite value in column '", printable(names[c], 40), "', row ", row),
+                    "finite, or NaN");
       if (std::isnan(v)) continue;
       char digits[32];
       text.append(digits, std::to_chars(digits, digits + sizeof digits, v).ptr);

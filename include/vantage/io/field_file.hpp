@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <numbers>
 #include <optional>
@@ -20,9 +21,10 @@
 #include <vantage/geometry/scalar_field.hpp>
 #include <vantage/io/csv.hpp>
 #include <vantage/io/file.hpp>
+#include <vantage/io/printable.hpp>
 
-// Fields from files: a CSV table whose first two columns are positions, and beside it, if there is one, a JSON file of
-// the same name that tells the columns' units: {"units": {"x": "m", "elevation": "m"}}.
+// Fields from files: a CSV table of positions and values, and beside it, if there is one, a JSON file of the same name
+// that tells the columns' units: {"units": {"x": "m", "elevation": "m"}}.
 namespace vantage {
 
 namespace detail {
@@ -48,42 +50,63 @@ class Units {
   nlohmann::json json_;
 };
 
+/// A column's name in lower case, with one name for longitude, "lon", and one for latitude, "lat".
+inline std::string axis_name(std::string name) {
+  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (name == "longitude" || name == "lng" || name == "long") return "lon";
+  return name == "latitude" ? "lat" : name;
+}
+
+/// The columns of positions: x and y, or longitude and latitude, whichever pair is complete first; else the first two.
+inline std::pair<std::size_t, std::size_t> position_columns(const std::vector<std::string>& names) {
+  const auto find = [&](std::string_view axis) {
+    const auto is_it = [&](const std::string& name) { return axis_name(name) == axis; };
+    return static_cast<std::size_t>(std::find_if(names.begin(), names.end(), is_it) - names.begin());
+  };
+  const auto last = [](const auto& pair) { return std::max(pair.first, pair.second); };
+  const std::pair plane(find("x"), find("y")), sphere(find("lon"), find("lat"));
+  const std::pair first = last(plane) <= last(sphere) ? plane : sphere;
+  return last(first) < names.size() ? first : std::pair<std::size_t, std::size_t>(0, 1);
+}
+
 /// Which way a column of positions runs.
 enum class Along { plane, longitude, latitude };
 
-inline Along along(std::string name, const std::string& unit, Along if_degrees) {
-  for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (name == "lon" || name == "longitude" || name == "lng" || name == "long") return Along::longitude;
-  if (name == "lat" || name == "latitude") return Along::latitude;
+inline Along along(const std::string& name, const std::string& unit, Along if_degrees) {
+  const std::string axis = axis_name(name);
+  if (axis == "lon") return Along::longitude;
+  if (axis == "lat") return Along::latitude;
   return unit.starts_with("deg") || unit.starts_with("°") ? if_degrees : Along::plane;
 }
 
 }  // namespace detail
 
-/// Makes samples of a table: positions in its first two columns, values in `column` (default: the last one). `unit_of`
-/// tells the unit of a column, or "".
+/// Makes samples of a table: positions in the columns named x and y, or longitude and latitude (or lon, lat; in any
+/// case and order; whichever pair is complete first), else in its first two; values in `column` (default: the last one
+/// of the others). `unit_of` tells the unit of a column, or "".
 ///
-/// Longitude and latitude (known by their names, in either order, or by units in degrees) become lengths on the plane:
-/// x = longitude cos(latitude of the middle), y = latitude, in degrees of a meridian. Rows without a value stay, as
-/// blanks. Throws Error, with the line, for a missing position, an impossible latitude, or a column that is no number.
+/// Longitude and latitude (known by their names, or by units in degrees) become lengths on the plane: x = longitude
+/// cos(latitude of the middle), y = latitude, in degrees of a meridian. Rows without a value stay, as blanks. Throws
+/// Error, with the line, for a missing position, an impossible latitude, or a column that is no number.
 template <class UnitOf>
 FieldSamples field_samples(const CsvTable& table, const std::optional<std::string>& column, const UnitOf& unit_of) {
   if (table.columns() < 3)
     throw Error(table.where(), concat(table.columns(), " columns"), "x, y and at least one column of values");
-  const std::size_t index = column ? table.find(*column) : table.columns() - 1;
-  if (index < 2)
-    throw Error(table.where(), concat("column '", table.names()[index], "' holds positions"),
-                "a column of values: the third or a later one");
+  const auto named = [&](std::size_t i) { return concat("'", printable(table.names()[i], 40), "'"); };
+  const auto [a, b] = detail::position_columns(table.names());
+  std::size_t last = table.columns() - 1;
+  while (last == a || last == b) --last;
+  const std::size_t index = column ? table.find(*column) : last;
+  if (index == a || index == b)
+    throw Error(table.where(), concat("column ", named(index), " holds positions"), "a column of values");
 
   const auto kind = [&](std::size_t i, detail::Along if_degrees) {
     return detail::along(table.names()[i], unit_of(table.names()[i]), if_degrees);
   };
-  detail::Along first = kind(0, detail::Along::longitude), second = kind(1, detail::Along::latitude);
-  std::span<const double> x = table.column(std::size_t{0}), y = table.column(std::size_t{1});
-  if (first == detail::Along::latitude && second == detail::Along::longitude) std::swap(x, y), std::swap(first, second);
-  const std::span<const double> values = table.column(index);
+  const detail::Along first = kind(a, detail::Along::longitude), second = kind(b, detail::Along::latitude);
+  const std::span<const double> x = table.column(a), y = table.column(b), values = table.column(index);
   if ((first == detail::Along::longitude) != (second == detail::Along::latitude))
-    throw Error(table.where(), concat("columns '", table.names()[0], "' and '", table.names()[1], "'"),
+    throw Error(table.where(), concat("columns ", named(a), " and ", named(b)),
                 "both or neither in degrees of longitude and latitude");
   const bool geographic = first == detail::Along::longitude;
 
@@ -92,16 +115,17 @@ FieldSamples field_samples(const CsvTable& table, const std::optional<std::strin
     const auto refuse = [&](std::string_view what, std::string_view expected) {
       throw Error(concat(table.where(), ":", table.line(row)), what, expected);
     };
-    if (std::isnan(x[row]) || std::isnan(y[row])) refuse("a position is missing", "numbers in the first two columns");
+    if (std::isnan(x[row]) || std::isnan(y[row]))
+      refuse("a position is missing", concat("numbers in columns ", named(a), " and ", named(b)));
     if (!geographic) continue;
     if (std::abs(x[row]) > 360) refuse(concat("longitude ", x[row]), "-360 to 360 degrees");
     if (std::abs(y[row]) > 90) refuse(concat("latitude ", y[row]), "-90 to 90 degrees");
     south = std::min(south, y[row]);
     north = std::max(north, y[row]);
   }
-  const double east = geographic ? std::cos(deg((south + north) / 2)) : 1.0;
-
   FieldSamples out{{}, {table.names()[index], unit_of(table.names()[index])}};
+  if (geographic) out.latitude_deg = (south + north) / 2;
+  const double east = geographic ? std::cos(deg(*out.latitude_deg)) : 1.0;
   out.samples.reserve(table.rows());
   for (std::size_t row = 0; row < table.rows(); ++row) out.samples.push_back({{east * x[row], y[row]}, values[row]});
   return out;

@@ -19,7 +19,8 @@
 #include <vantage/io/file.hpp>
 #include <vantage/io/printable.hpp>
 
-// JSON that strangers wrote: bounded before it is parsed, and read through items that know where they stand.
+// JSON that strangers wrote: bounded before it is parsed, and read through items that know where they stand. And JSON
+// that holds what strangers named, as text.
 namespace vantage {
 
 /// What a JSON text may cost; whatever is larger is refused before it is allocated.
@@ -72,6 +73,13 @@ inline nlohmann::json parse_json(std::string_view text, const std::string& where
   } catch (const nlohmann::json::exception&) {  // such as 1e999
     throw Error(where, "a number that is out of range", "finite numbers");
   }
+}
+
+/// JSON as text on one line. A string that is no UTF-8, such as a file's or a column's name, is written with U+FFFD for
+/// what cannot be read.
+template <class Json>
+std::string json_text(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 /// A value of a JSON text with the way to it, so that a complaint names both: "scene.json: /boxes/3/min: ...".

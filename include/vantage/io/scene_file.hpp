@@ -42,6 +42,7 @@ inline LoadedScene read_mesh_scene(const std::filesystem::path& path, const Scen
     if (!loaded.scene.mesh.colours.empty()) loaded.scene.materials[0].colour.setOnes();
     return loaded;
   }
+  if (std::error_code none; !std::filesystem::exists(path, none)) throw Error(path.string(), "no such file or folder");
   throw Error(path.string(), concat("a file of kind '", printable(kind), "'"), "obj, gltf, glb, ply or a scene's json");
 }
 

@@ -20,6 +20,7 @@
 #include <vantage/core/error.hpp>
 #include <vantage/geometry/scene.hpp>
 #include <vantage/io/file.hpp>
+#include <vantage/io/json.hpp>
 #include <vantage/io/picture.hpp>
 #include <vantage/io/png.hpp>
 
@@ -82,7 +83,7 @@ class GlbWriter {
   /// The file's bytes. Throws Error if they are 4 GB or more.
   [[nodiscard]] std::string take() && {
     json_["buffers"] = {{{"byteLength", buffer_.size()}}};
-    std::string text = json_.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::string text = json_text(json_);
     text.append((4 - text.size() % 4) % 4, ' ');
     const std::size_t size = 28 + text.size() + buffer_.size();
     if (size > 0xFFFFFFFF) throw Error("GlbWriter", concat(size, " bytes"), "less than 4 GB");

@@ -6,9 +6,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <limits>
@@ -91,12 +93,57 @@ struct ListMethods : CLI::CallForVersion {
   }
 };
 
-/// Digits only: CLI11 reads "-1" as a huge unsigned number.
+/// Digits only, and no more than fit: CLI11 reads "-1" as a huge unsigned number, and a huger one as the largest.
 inline CLI::Validator whole_number() {
   return CLI::Validator(
       [](std::string& text) {
-        return !text.empty() && text.find_first_not_of("0123456789") == text.npos ? std::string()
-                                                                                  : "'" + text + "' is no whole number";
+        std::uint64_t unused = 0;
+        const auto [end, failed] = std::from_chars(text.data(), text.data() + text.size(), unused);
+        return failed == std::errc() && end == text.data() + text.size()
+                   ? std::string()
+                   : concat("'", text, "' is no whole number up to ", std::numeric_limits<std::uint64_t>::max());
+      },
+      "");
+}
+
+/// The number that the whole text is, or NaN if it is none or infinite.
+inline double finite_number(const std::string& text) {
+  char* end = nullptr;
+  const double x = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0' && std::isfinite(x) ? x : std::numeric_limits<double>::quiet_NaN();
+}
+inline CLI::Validator positive() {
+  return CLI::Validator(
+      [](std::string& text) {
+        return finite_number(text) > 0 ? std::string() : "'" + text + "' is no finite number above 0";
+      },
+      "> 0");
+}
+/// Numbers from `low` to `high`. CLI::Range lets NaN pass.
+inline CLI::Validator between(double low, double high) {
+  const std::string range = concat(low, " to ", high);
+  return CLI::Validator(
+      [low, high, range](std::string& text) {
+        const double x = finite_number(text);
+        return x >= low && x <= high ? std::string() : "'" + text + "' is no number from " + range;
+      },
+      range);
+}
+
+/// The values of an enumeration by their names, name_of(value), alone. CLI::CheckedTransformer takes numbers, too.
+template <class E>
+CLI::Validator one_of(const std::vector<E>& values) {
+  return CLI::Validator(
+      [values](std::string& text) {
+        std::string names;
+        for (const E value : values) {
+          if (text == name_of(value)) {
+            text = std::to_string(static_cast<int>(value));
+            return std::string();
+          }
+          names.append(names.empty() ? "" : ", ").append(name_of(value));
+        }
+        return "'" + text + "' is none of " + names;
       },
       "");
 }
@@ -115,16 +162,7 @@ inline void add_mission_options(CLI::App& app, MissionOptions& options, const st
   std::vector<std::string> names;
   names.reserve(methods.size());
   for (const MethodName& m : methods) names.push_back(m.name);
-  const CLI::Validator positive(
-      [](std::string& text) {
-        char* end = nullptr;
-        const double x = std::strtod(text.c_str(), &end);
-        return end != text.c_str() && *end == '\0' && std::isfinite(x) && x > 0
-                   ? std::string()
-                   : "'" + text + "' is no finite number above 0";
-      },
-      "> 0");
-  const CLI::Validator whole = detail::whole_number();
+  const CLI::Validator positive = detail::positive(), whole = detail::whole_number();
 
   app.set_version_flag("--version", "vantage " VANTAGE_VERSION);
   app.add_option("--out", options.out, "Folder of the results")->capture_default_str()->type_name("DIR");
@@ -144,16 +182,12 @@ inline void add_mission_options(CLI::App& app, MissionOptions& options, const st
          "--list-methods", [methods] { throw detail::ListMethods(methods); }, "List the methods")
       ->trigger_on_parse();
   app.add_option("--preset", options.preset, "Where the thesis and the published code disagree: thesis or reference")
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, PresetKind>>{
-                                              {"thesis", PresetKind::thesis}, {"reference", PresetKind::reference}})
-                      .description(""))
+      ->transform(detail::one_of<PresetKind>({PresetKind::thesis, PresetKind::reference}))
       ->default_str(std::string(name_of(options.preset)))
       ->type_name("NAME");
   app.add_option("--clock", options.clock,
                  "Mission time of computing: real (measured) or modelled (a run repeats bit for bit)")
-      ->transform(CLI::CheckedTransformer(std::vector<std::pair<std::string, ClockKind>>{
-                                              {"real", ClockKind::real}, {"modelled", ClockKind::modelled}})
-                      .description(""))
+      ->transform(detail::one_of<ClockKind>({ClockKind::real, ClockKind::modelled}))
       ->default_str(std::string(name_of(options.clock)))
       ->type_name("NAME");
   app.add_option("--budget", options.budget_s, "Mission time: planning + mapping + flight")

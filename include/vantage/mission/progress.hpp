@@ -112,7 +112,7 @@ class Progress {
     facts.push_back("step " + std::to_string(r.index));
     facts.push_back(short_number(std::round(10 * r.elapsed_s) / 10) +
                     (std::isfinite(config_.budget_s) ? " of " + short_number(config_.budget_s) : "") + " s");
-    if (r.planned) facts.push_back("utility " + short_number(r.best_utility));
+    if (r.planned) facts.push_back("utility " + short_number(r.utility));
     for (const Metric& m : r.metrics) facts.push_back(m.name + " " + short_number(m.value));
     if (const auto columns = terminal_columns(config_.terminal_fd)) {
       if (made > 0) facts.push_back("left " + short_time(real_s() * (1 - done) / made));

@@ -14,6 +14,7 @@
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/geometry/view.hpp>
+#include <vantage/io/json.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/version.hpp>
 
@@ -142,15 +143,16 @@ inline nlohmann::ordered_json to_json(const StepRecord& r) {
           {"metrics", metrics}};
 }
 
-/// mission.json: valid JSON, one line a step, numbers so that they read back as the same double.
+/// mission.json: valid JSON (names that are no UTF-8: see json_text), one line a step, numbers so that they read back
+/// as the same double.
 inline std::string mission_json(const MissionRecord& record) {
   using Json = nlohmann::ordered_json;
-  std::string text = "{\n  \"config\": " + record.config.dump() + ",\n  \"seed\": " + std::to_string(record.seed) +
-                     ",\n  \"versions\": " + versions().dump() +
-                     ",\n  \"stop_reason\": " + (record.reason ? Json(name_of(*record.reason)) : Json()).dump() +
+  std::string text = "{\n  \"config\": " + json_text(record.config) + ",\n  \"seed\": " + std::to_string(record.seed) +
+                     ",\n  \"versions\": " + json_text(versions()) +
+                     ",\n  \"stop_reason\": " + json_text(record.reason ? Json(name_of(*record.reason)) : Json()) +
                      ",\n  \"steps\": [";
   for (std::size_t i = 0; i < record.steps.size(); ++i)
-    text += (i == 0 ? "\n    " : ",\n    ") + to_json(record.steps[i]).dump();
+    text += (i == 0 ? "\n    " : ",\n    ") + json_text(to_json(record.steps[i]));
   return text + "\n  ]\n}\n";
 }
 

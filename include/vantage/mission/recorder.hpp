@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <vantage/io/file.hpp>
+#include <vantage/io/json.hpp>
 #include <vantage/mission/record.hpp>
 
 namespace vantage {
@@ -41,7 +42,7 @@ class Recorder {
         metrics_(std::move(metrics)) {
     Check check("RecorderConfig");
     check.not_negative("write_every_s", config.write_every_s);
-    check(config.config.is_object(), "config", config.config.dump(), "a JSON object");
+    check(config.config.is_object(), "config", json_text(config.config), "a JSON object");
     check.done();
     record_.config = std::move(config.config);
     record_.seed = config.seed;
@@ -82,7 +83,7 @@ class Recorder {
   }
 
   void save(Sink& sink) const {
-    sink.put(record_.config.dump());
+    sink.put(json_text(record_.config));
     sink.put(record_.seed);
     sink.put(static_cast<std::uint64_t>(record_.steps.size()));
     for (const StepRecord& r : record_.steps) r.save(sink);
@@ -92,7 +93,7 @@ class Recorder {
     std::string config;
     source.get(config);
     const auto seed = source.get<std::uint64_t>();
-    if (config != record_.config.dump())
+    if (config != json_text(record_.config))
       throw Error(source.where(), "is of a mission with other options" + differences(config), "the same options");
     if (seed != record_.seed)
       throw Error(source.where(), concat("is of a mission with seed ", seed), concat("seed ", record_.seed));
@@ -124,11 +125,11 @@ class Recorder {
     std::string text;
     const auto value = [](const nlohmann::ordered_json& object, const std::string& key) {
       const auto at = object.find(key);
-      return at == object.end() ? std::string("none") : at->is_structured() ? std::string("...") : at->dump();
+      return at == object.end() ? std::string("none") : at->is_structured() ? std::string("...") : json_text(*at);
     };
     const auto compare = [&](const std::string& key) {
       const auto a = there.find(key), b = record_.config.find(key);
-      const bool same = a != there.end() && b != record_.config.end() && *a == *b;
+      const bool same = a != there.end() && b != record_.config.end() && json_text(*a) == json_text(*b);
       if (!same)
         text += (text.empty() ? " (" : ", ") + key + ": " + value(there, key) + " there, " +
                 value(record_.config, key) + " here";

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include <vantage/core/error.hpp>
+#include <vantage/io/json.hpp>
 #include <vantage/mission/plot.hpp>
 #include <vantage/mission/record.hpp>
 #include <vantage/mission/text.hpp>
@@ -139,7 +140,7 @@ inline std::string html_of_config(const MissionRecord& record, const std::string
   if (!command.empty()) s += "<pre>" + escaped(command) + "</pre>\n";
   s += "<div class=\"wide\"><table class=\"config\"><tbody>\n";
   const auto row = [&](std::string_view key, const nlohmann::ordered_json& value) {
-    s += "<tr><td>" + escaped(key) + "<td>" + escaped(value.is_string() ? value.get<std::string>() : value.dump()) +
+    s += "<tr><td>" + escaped(key) + "<td>" + escaped(value.is_string() ? value.get<std::string>() : json_text(value)) +
          "\n";
   };
   row("seed", record.seed);

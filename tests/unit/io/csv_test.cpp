@@ -11,6 +11,7 @@
 
 #include <vantage/core/rng.hpp>
 
+#include "message_of.hpp"
 #include "temporary_folder.hpp"
 
 namespace vantage {
@@ -80,6 +81,9 @@ TEST(Csv, MissingColumnsAreNamedWithThoseThereAre) {
     static_cast<void>(t.column("z"));
     FAIL();
   } catch (const Error& e) { EXPECT_STREQ(e.what(), "f.csv: no column 'z'; expected one of x, y"); }
+  const CsvTable latin1 = parse_csv("x,temp\xE9\n1,warm\n", "f.csv");
+  EXPECT_REFUSED(latin1.column("\xE9"), "f.csv: no column '?'; expected one of x, temp?");
+  EXPECT_REFUSED(latin1.column(1), "f.csv:2: 'warm' in column 'temp?'");
 }
 
 TEST(Csv, RefusesWhatIsNoTable) {
@@ -90,6 +94,8 @@ TEST(Csv, RefusesWhatIsNoTable) {
   EXPECT_EQ(refusal("x,y\n1,2,3\n"), "f.csv:2: 3 fields; expected 2, as in the line of names");
   EXPECT_EQ(refusal("x,y,x\n1,2,3\n"), "f.csv:1: two columns are named 'x'; expected distinct names");
   EXPECT_EQ(refusal("x,,y\n1,2,3\n"), "f.csv:1: column 2 has no name; expected a name for each column");
+  EXPECT_EQ(refusal("0,0,1\n1,1,2\n"), "f.csv:1: numbers only; expected a line of column names");
+  EXPECT_EQ(refusal("x,2\n1,2\n"), "(accepted)");
   EXPECT_EQ(refusal("x;y\n1;2\n"), "f.csv:1: no comma in the line of names; expected comma-separated columns");
   EXPECT_EQ(refusal("x,y\n\"1,2\n"), "f.csv:2: a quote is not closed; expected a closing quote on the same line");
   EXPECT_EQ(refusal("x,y\n\"1\"2,2\n"), "f.csv:2: text after a closing quote; expected a comma");

@@ -60,20 +60,33 @@ TEST(FieldFile, LongitudeAndLatitudeBecomeLengths) {
   }
 }
 
+TEST(FieldFile, PositionsAreKnownByTheirNames) {
+  for (const auto& f : {read("z,x,y\n3,1,2\n"), read("Y,z,X\n2,3,1\n"), read("station,x,y,z\nAkron,1,2,3\n"),
+                        read("x,y,lon,lat,z\n1,2,10,50,3\n", "z"), read("east,north,z\n1,2,3\n")}) {
+    EXPECT_EQ(f.samples[0].position, Eigen::Vector2d(1, 2)) << f.quantity.name;
+    EXPECT_EQ(f.samples[0].value, 3);
+    EXPECT_EQ(f.quantity.name, "z");
+    EXPECT_FALSE(f.latitude_deg);
+  }
+  const FieldSamples f = read("z,LAT,LON\n3,60,10\n4,60,12\n");
+  EXPECT_TRUE(f.samples[1].position.isApprox(Eigen::Vector2d(12 * std::cos(deg(60)), 60)));
+  EXPECT_EQ(f.samples[1].value, 4);
+  EXPECT_EQ(f.latitude_deg, 60);
+}
+
 TEST(FieldFile, RefusesWhatIsNoField) {
   EXPECT_EQ(refusal("x,y\n1,2\n"), "f.csv: 2 columns; expected x, y and at least one column of values");
   EXPECT_EQ(refusal("x,y,v\n1,2,3\n", "w"), "f.csv: no column 'w'; expected one of x, y, v");
-  EXPECT_EQ(refusal("x,y,v\n1,2,3\n", "y"),
-            "f.csv: column 'y' holds positions; expected a column of values: the third or a later one");
-  EXPECT_EQ(refusal("x,y,v\n1,2,3\n4,,6\n"),
-            "f.csv:3: a position is missing; expected numbers in the first two columns");
+  EXPECT_EQ(refusal("x,y,v\n1,2,3\n", "y"), "f.csv: column 'y' holds positions; expected a column of values");
+  EXPECT_EQ(refusal("x,y,v\n1,2,3\n4,,6\n"), "f.csv:3: a position is missing; expected numbers in columns 'x' and 'y'");
   EXPECT_EQ(refusal("x,y,v\n1,2,3\n4,5,warm\n"), "f.csv:3: 'warm' in column 'v'; expected a finite number, or nothing");
   EXPECT_EQ(refusal("x,y,v\n1,2,inf\n"), "f.csv:2: 'inf' in column 'v'; expected a finite number, or nothing");
   EXPECT_EQ(refusal("lon,lat,v\n1,91,3\n"), "f.csv:2: latitude 91; expected -90 to 90 degrees");
   EXPECT_EQ(refusal("lon,lat,v\n-361,1,3\n"), "f.csv:2: longitude -361; expected -360 to 360 degrees");
   EXPECT_EQ(refusal("lon,y,v\n1,1,3\n"),
             "f.csv: columns 'lon' and 'y'; expected both or neither in degrees of longitude and latitude");
-  EXPECT_EQ(refusal("name,x,y,v\na,1,2,3\n").find("f.csv:2: 'a' in column 'name'"), 0u);
+  EXPECT_EQ(refusal("name,east,north,v\na,1,2,3\n").find("f.csv:2: 'a' in column 'name'"), 0u);
+  EXPECT_EQ(refusal("1,2,3\n4,5,6\n"), "f.csv:1: numbers only; expected a line of column names");
 }
 
 }  // namespace

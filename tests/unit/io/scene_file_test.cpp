@@ -106,10 +106,12 @@ TEST(SceneFile, RefusesWithTheWayToIt) {
   EXPECT_REFUSED(describe("{}"), "the scene has no triangle");
   EXPECT_REFUSED(describe("{"), "scene.json:1: ends at byte 1");
   EXPECT_REFUSED(describe(R"({"mesh": "none.obj"})"), "none.obj: no such file");
-  EXPECT_REFUSED(describe(R"({"mesh": "m.blend"})"), "a file of kind 'blend'; expected obj, gltf, glb, ply");
+  EXPECT_REFUSED(describe(R"({"mesh": "m.blend"})"), "m.blend: no such file or folder");
   const test::TemporaryFolder folder;
+  EXPECT_REFUSED(read_scene(folder.put("m.blend", "")), "a file of kind 'blend'; expected obj, gltf, glb, ply");
   EXPECT_REFUSED(read_scene(folder.path()), "a folder without a scene; expected scene.json or object.json");
   EXPECT_REFUSED(read_scene(folder.path() / "no.obj"), "no.obj: no such file");
+  EXPECT_REFUSED(read_scene(folder.path() / "nowhere"), "nowhere: no such file or folder");
   folder.put("scene.obj", "o a\nv 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n");
   folder.put("scene.json", R"({"instances": [{"id": "a", "class": "x"}, {"id": "a", "class": "y"}]})");
   EXPECT_REFUSED(read_scene(folder.path()), "/instances/1/id: a second 'a'");

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <new>
 #include <sstream>
 #include <stdexcept>
@@ -85,6 +87,9 @@ TEST(CommandLine, BadUsageIsOneLineAndExitCodeTwo) {
                                                      {"--threads", "x"},
                                                      {"--seed", "x"},
                                                      {"--seed", "-1"},
+                                                     {"--seed", "99999999999999999999999"},
+                                                     {"--clock", "1"},
+                                                     {"--preset", "0"},
                                                      {"--seed"},
                                                      {"--unknown"},
                                                      {"stray"}};
@@ -101,6 +106,21 @@ TEST(CommandLine, BadUsageIsOneLineAndExitCodeTwo) {
               std::string::npos)
         << r.err;
   }
+}
+
+TEST(CommandLine, SaysWhatWasExpected) {
+  EXPECT_EQ(run({"--clock", "slow"}).err, "toy: --clock: 'slow' is none of real, modelled (see --help)\n");
+  EXPECT_EQ(run({"--preset", "0"}).err, "toy: --preset: '0' is none of thesis, reference (see --help)\n");
+  EXPECT_EQ(run({"--seed", "18446744073709551616"}).err,
+            "toy: --seed: '18446744073709551616' is no whole number up to 18446744073709551615 (see --help)\n");
+  EXPECT_EQ(run({"--seed", "18446744073709551615"}).options.seed, std::numeric_limits<std::uint64_t>::max());
+}
+
+TEST(CommandLine, NumbersInARangeAreFinite) {
+  const CLI::Validator half = detail::between(-0.5, 80);
+  for (const char* good : {"-0.5", "0", "1e1", "80"}) EXPECT_EQ(half(std::string(good)), "") << good;
+  for (const char* bad : {"nan", "inf", "-inf", "81", "-0.6", "", "1x", "x"})
+    EXPECT_EQ(half(std::string(bad)), concat("'", bad, "' is no number from -0.5 to 80"));
 }
 
 TEST(CommandLine, HelpAndVersionAndMethodsEndWell) {

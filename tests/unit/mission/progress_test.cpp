@@ -115,6 +115,14 @@ TEST(Progress, AResumedMissionShowsNoStart) {
   EXPECT_EQ(out.str(), "step 5  50 of 100 s\n");
 }
 
+TEST(Progress, TheUtilityIsThatOfTheChosenView) {
+  MissionRecord record;
+  record.steps = {StepRecord{.index = 1, .planned = true, .utility = 2, .best_utility = 3}};
+  std::ostringstream out;
+  Progress(record, out, {}).started(toy::ToyMap(2), Situation{});
+  EXPECT_EQ(out.str(), "step 1  0 s  utility 2\n");
+}
+
 TEST(Progress, RefusesABadConfig) {
   const MissionRecord record;
   std::ostringstream out;

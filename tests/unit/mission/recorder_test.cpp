@@ -8,6 +8,7 @@
 #include <vantage/mission/recorder.hpp>
 #include <vector>
 
+#include "message_of.hpp"
 #include "toy/folder.hpp"
 #include "toy/mission.hpp"
 
@@ -130,6 +131,23 @@ TEST(Recorder, RestoresTheSameBytes) {
   MissionRecord expected = recorder.record();
   expected.reason.reset();  // a restored mission goes on
   EXPECT_EQ(mission_json(other.record()), mission_json(expected));
+}
+
+TEST(Recorder, NamesThatAreNoUtf8AreRecorded) {
+  const toy::Folder folder;
+  RecorderConfig config = config_in(folder);
+  config.config["quantity"] = "temp\xE9rature";  // Latin-1
+  const auto recorder = recorded(config);
+  EXPECT_EQ(parsed(config.file)["config"]["quantity"], "temp\uFFFDrature");
+  Sink sink;
+  recorder.save(sink);
+  Recorder same(config, metrics);
+  Source source(sink.bytes());
+  EXPECT_NO_THROW(same.load(source));
+  config.config["resolution"] = 9;
+  Recorder other(config, metrics);
+  Source again(sink.bytes(), "old");
+  EXPECT_REFUSED((other.load(again), 0), "other options (resolution: 8 there, 9 here)");
 }
 
 TEST(Recorder, RefusesAnotherMissionsRecordAndKeepsItsOwn) {
