@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <vantage/geometry/scalar_field.hpp>
 #include <vantage/io/field_file.hpp>
+#include <vantage/mission/text.hpp>
 #include <vantage/sim/random_field.hpp>
 #include <vantage/sim/sampled_field.hpp>
 
@@ -20,8 +22,10 @@ namespace field {
 /// What is to be mapped.
 struct Input {
   ScalarField truth;
-  std::vector<FieldSample> held_out;  ///< scattered data: where the map is judged
-  std::string name, note;             ///< note: how it came to its place, for the report
+  std::vector<FieldSample> held_out;        ///< scattered data: where the map is judged
+  std::string name, note;                   ///< note: how it came to its place, for the report
+  std::optional<double> scale = {};         ///< of a file: metres of the flight area per unit of its positions
+  std::optional<double> latitude_deg = {};  ///< see FieldSamples
 };
 
 /// A rectangle of the field's proportions whose longer side is `side_m`: a grid fills it, nothing is masked for its
@@ -42,13 +46,20 @@ inline Input sampled(const std::filesystem::path& file, const Options& o) {
   const FieldSamples data = read_field(file, o.column);
   SampledField f = sampled_field(data, Rng(o.seed).fork(2), {.area_m = flight_area(data, o.side_m)});
   const std::size_t held = f.held_out.size();
-  std::string note =
-      f.gridded ? "A grid of samples, interpolated bilinearly."
-                : concat("Scattered samples, interpolated linearly between neighbours; the error is measured at ", held,
-                         " samples that were held out.");
+  std::string note = f.gridded
+                         ? "A grid of samples, interpolated bilinearly."
+                         : concat("Scattered samples, interpolated linearly between neighbours; the error is measured ",
+                                  held > 0 ? concat("at ", held, " samples that were held out.")
+                                           : "against this interpolation: no held-out sample lies between the others.");
+  note +=
+      concat(" Their bounding box is fitted into the flight area, both axes by the same scale: ", short_number(f.scale),
+             " m per ",
+             data.latitude_deg ? concat("degree of latitude, where x is longitude times the cosine of ",
+                                        short_number(*data.latitude_deg), " degrees.")
+                               : "unit of their positions.");
   if (f.truth.valid_pixels() < f.truth.rows() * f.truth.columns())
     note += " Where there are no data the field is masked.";
-  return {std::move(f.truth), std::move(f.held_out), file.stem().string(), std::move(note)};
+  return {std::move(f.truth), std::move(f.held_out), file.stem().string(), std::move(note), f.scale, data.latitude_deg};
 }
 
 inline Input random(std::uint64_t seed, const Options& o) {

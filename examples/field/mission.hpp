@@ -65,6 +65,9 @@ inline nlohmann::ordered_json config(const Options& o, const Input& input, doubl
                               {"unit", truth.quantity().unit}};
   c["range"] = {truth.minimum(), truth.maximum()};
   c["area_m"] = {truth.area().sizes().x(), truth.area().sizes().y()};
+  if (input.scale) c["scale_m_per_unit"] = *input.scale;
+  if (input.latitude_deg) c["scale_latitude_deg"] = *input.latitude_deg;
+  c["held_out_samples"] = input.held_out.size();
   c["method"] = o.method;
   c["protocol"] = field::name_of(o.protocol);
   c["preset"] = vantage::name_of(o.preset);

@@ -69,7 +69,8 @@ inline void add_options(CLI::App& app, Options& o) {
   app.add_option("--random", o.random, "A Gaussian random field instead of a file")
       ->check(vantage::detail::whole_number())
       ->type_name("SEED");
-  app.add_option("--resolution", o.resolution, "Finest cells along a side, a power of two (default 32)")
+  app.add_option("--resolution", o.resolution,
+                 "Finest cells along a side, a power of two (default 32); above 128: latent, fr_idp and ar_idp only")
       ->check(CLI::IsMember(std::vector<int>{4, 8, 16, 32, 64, 128, 256, 512, 1024}))
       ->type_name("N");
   app.add_option("--threshold", o.threshold, "What is above matters, in the field's unit (default: 70 % of its range)")
@@ -77,44 +78,46 @@ inline void add_options(CLI::App& app, Options& o) {
   app.add_option("--protocol", o.protocol,
                  "plan: views are planned. lawnmower16: 4 x 4 views side by side (Table 3.1). lawnmower81: 9 x 9 views "
                  "that overlap by half, 64 x 64 cells (Fig. 3.5)")
-      ->transform(
-          CLI::CheckedTransformer(std::vector<std::pair<std::string, Protocol>>{{"plan", Protocol::plan},
-                                                                                {"lawnmower16", Protocol::lawnmower16},
-                                                                                {"lawnmower81", Protocol::lawnmower81}})
-              .description(""))
+      ->transform(vantage::detail::one_of<Protocol>({Protocol::plan, Protocol::lawnmower16, Protocol::lawnmower81}))
       ->default_str("plan")
       ->type_name("NAME");
   app.add_option("--side", o.side_m, "Longer side of the flight area, to which the field is scaled")
-      ->check(CLI::PositiveNumber)
+      ->check(vantage::detail::between(0.001, 1e6))
       ->capture_default_str()
       ->type_name("METRES");
   app.add_option("--noise", o.alpha,
                  "Sensor noise per metre of height, for a field scaled to [0, 1] (default: the preset's)")
-      ->check(CLI::PositiveNumber)
+      ->check(vantage::detail::positive())
       ->type_name("ALPHA");
   app.add_option("--pixels", o.pixels, "Pixels along a side of the sensor's image")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str()
       ->type_name("N");
   app.add_option("--half-angle", o.half_angle_deg, "Half of the sensor's field of view")
-      ->check(CLI::Range(1.0, 80.0))
+      ->check(vantage::detail::between(1, 80))
       ->capture_default_str()
       ->type_name("DEGREES");
   app.add_option("--checkpoint", o.checkpoint_s, "Real time between two checkpoints; 0: after every measurement")
-      ->check(CLI::NonNegativeNumber)
+      ->check(vantage::detail::between(0, 1e9))
       ->capture_default_str()
       ->type_name("SECONDS");
 }
 
-/// Throws Error for options that contradict each other.
+/// Whether a method computes with the covariance of every cell with every other.
+inline bool has_full_covariance(const std::string& method) {
+  return method != "latent" && method != "fr_idp" && method != "ar_idp";
+}
+
+/// Throws Error for options that contradict each other, and for a map that would not fit.
 inline void validate(const Options& o) {
   if (!o.file.empty() && o.random) throw Error("--random", "given together with --field", "one of them");
   if (o.column && o.file.empty()) throw Error("--column", "given without --field", "a file that has the column");
   if (o.threshold && !std::isfinite(*o.threshold)) throw Error("--threshold", concat(*o.threshold), "a finite number");
-  if (!std::isfinite(o.side_m) || o.side_m > 1e6) throw Error("--side", concat(o.side_m, " m"), "at most 1e6 m");
-  if (o.alpha && !std::isfinite(*o.alpha)) throw Error("--noise", concat(*o.alpha), "a finite number");
-  if (!std::isfinite(o.half_angle_deg)) throw Error("--half-angle", concat(o.half_angle_deg), "1 to 80 degrees");
-  if (!std::isfinite(o.checkpoint_s)) throw Error("--checkpoint", concat(o.checkpoint_s, " s"), "a finite number");
+  if (const int n = o.cells_a_side(); n > 128 && has_full_covariance(o.method))
+    throw Error("--resolution",
+                concat(n, " x ", n, " cells by method ", o.method, ", whose covariance takes ",
+                       std::round(8 * std::pow(n, 4) / 1e9), " GB"),
+                "--method latent, or at most 128");
 }
 
 }  // namespace field

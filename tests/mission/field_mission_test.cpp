@@ -130,6 +130,7 @@ TEST_F(FieldMission, TheProtocolOfFigure35) {
   EXPECT_EQ(json["steps"].size(), 82u);
   EXPECT_EQ(json["config"]["threshold"], 0.6);
   EXPECT_EQ(json["stop_reason"], "nothing_to_do");
+  EXPECT_FALSE(json["config"].contains("scale_m_per_unit"));
 }
 
 // A plane in the unit of a table, on a grid with a hole and scattered.
@@ -160,6 +161,41 @@ TEST_F(FieldMission, FieldsFromFilesInTheirOwnUnit) {
   }
 }
 
+TEST_F(FieldMission, AProtocolOverAFileSaysHowItsPlaceBecameTheFlightArea) {
+  const Ended e = run("--resolution 8 --protocol lawnmower16 --budget 1000 --clock modelled" +
+                      file("grid.csv", plane(true)) + out("grid"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  const auto json = mission(folder.path / "grid");
+  EXPECT_EQ(json["steps"].size(), 17u);
+  EXPECT_EQ(json["stop_reason"], "nothing_to_do");
+  EXPECT_NEAR(json["config"]["scale_m_per_unit"].get<double>(), 20.0 / 11, 1e-12);
+  EXPECT_EQ(json["config"]["held_out_samples"], 0);
+  EXPECT_FALSE(json["config"].contains("scale_latitude_deg"));
+  const std::string report = text_of(folder.path / "grid" / "report.html");
+  EXPECT_NE(report.find("both axes by the same scale: 1.82 m per unit of their positions."), report.npos);
+}
+
+TEST_F(FieldMission, SamplesWithoutOneBetweenTheOthersToHoldOut) {
+  std::string csv = "v,Longitude,Latitude\n";  // a circle: the hull of any of them holds none of the others
+  for (int i = 0; i < 6; ++i) csv += concat(i, ",", 10 + std::cos(1.0 + i), ",", 60 + 0.5 * std::sin(1.0 + i), "\n");
+  const Ended e = run("--resolution 8 --measurements 2 --clock modelled" + file("circle.csv", csv) + out("circle"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  EXPECT_NE(e.err.find("measured against this interpolation: no held-out sample lies between the others."), e.err.npos)
+      << e.err;
+  EXPECT_NE(e.err.find("m per degree of latitude, where x is longitude times the cosine of 60"), e.err.npos) << e.err;
+  const auto config = mission(folder.path / "circle")["config"];
+  EXPECT_EQ(config["held_out_samples"], 0);
+  EXPECT_NEAR(config["scale_latitude_deg"].get<double>(), 60, 0.1);
+}
+
+TEST_F(FieldMission, NamesInLatin1) {
+  const Ended e =
+      run("--resolution 8 --measurements 2 --clock modelled" +
+          file("temp\xE9.csv", "x,y,temp\xE9rature\n0,0,1\n1,0,2\n0,1,3\n1,1,4\n0.4,0.5,2\n0.6,0.3,1\n") + out("a"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  EXPECT_EQ(mission(folder.path / "a")["config"]["quantity"], "temp\uFFFDrature");
+}
+
 TEST_F(FieldMission, BadUsageAndBadInputAreOneLineAndExitCodeTwo) {
   const std::vector<std::string> bad = {"--method magic",
                                         "--resolution 33",
@@ -175,6 +211,13 @@ TEST_F(FieldMission, BadUsageAndBadInputAreOneLineAndExitCodeTwo) {
                                         "--column level",
                                         "stray",
                                         "--side inf",
+                                        "--side nan",
+                                        "--half-angle nan",
+                                        "--checkpoint nan",
+                                        "--noise nan",
+                                        "--protocol 1",
+                                        "--random 1 --resolution 256",
+                                        "--random 99999999999999999999999",
                                         "--noise -1",
                                         "--out /dev/null/x",
                                         file("text.csv", "this is no table"),
