@@ -63,6 +63,7 @@ class MissionProgram : public testing::Test {
     for (int mission = 0; kills < least_kills; ++mission) {
       ASSERT_LT(mission, 20);
       const std::string name = "broken_" + std::to_string(mission);
+      std::filesystem::remove_all(folder.path / name);  // of other arguments
       for (int status = -1; !WIFEXITED(status);) {
         const ::pid_t pid = start(arguments + " --resume" + out(name));
         // On a machine that is busier now than it was, a life must still be long enough.

@@ -82,7 +82,7 @@ TEST_F(ExploreMission, EveryMethodExploresAndRepeatsWithAnyThreads) {
 
 TEST_F(ExploreMission, KilledAndResumed) {
   for (const std::string method : {"fbe", "nbvp", "information_gain", "random"})
-    expect_to_survive(room + " --measurements 40 --method " + method, 2,
+    expect_to_survive(room + " --measurements 24 --method " + method, 2,
                       {"mission.json", "map.bt", "mesh.ply", "path.csv", "growth.png", "views/poses.txt"});
 }
 
