@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
   scene::Options options;
   options.command.assign(argv, argv + argc);
   scene::add_options(app, options);
-  return vantage::run_program(app, argc, argv, std::cout, std::cerr,
-                              [&] { vantage::with_threads(options.threads, [&] { run(options); }); });
+  app.get_option("--preset")->default_str("reference of surfels, else thesis");
+  return vantage::run_program(app, argc, argv, std::cout, std::cerr, [&] {
+    // Of surfels, the preset that reconstructs better.
+    if (app.count("--preset") == 0 && options.reconstructs()) options.preset = vantage::PresetKind::reference;
+    vantage::with_threads(options.threads, [&] { run(options); });
+  });
 }
