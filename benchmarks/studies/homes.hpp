@@ -39,7 +39,9 @@ inline scene::Mission fly(const Options& o, const Unit& unit, scene::Options mis
   mission.out = o.out / "missions" / unit.name;
   mission.keep_views = false;
   std::ostream silent(nullptr);
-  return scene::fly_mission(mission, scene::load(mission), silent);
+  scene::Mission flown = scene::fly_mission(mission, scene::load(mission), silent);
+  std::filesystem::remove(mission.out / "mission.checkpoint");
+  return flown;
 }
 
 }  // namespace study
