@@ -53,8 +53,8 @@ inline Picture strip(const Frame& frame, double range_m, int width = 300) {
 }
 
 /// Observer that writes what the camera saw, as a recording which can be replayed: colour/, depth/, labels/, poses.txt
-/// and camera.txt; no folder, no files. Depth in quarter millimetres, or coarser if it goes beyond 16 m. Keeps strips of colour, depth and
-/// labels in memory, of every k-th frame, so that there are `most_strips` at most.
+/// and camera.txt; no folder, no files. Depth in quarter millimetres, or coarser if it goes beyond 16 m. Keeps strips
+/// of colour, depth and labels in memory, of every k-th frame, so that there are `most_strips` at most.
 class Album {
  public:
   Album(std::filesystem::path folder, double range_m, std::size_t most_strips = 12)

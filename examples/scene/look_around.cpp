@@ -32,17 +32,19 @@ Mission fly(const Options& o, const Input& input, std::ostream& log, World& worl
   std::optional<SurfaceCoverage> truth;
   if (input.surface.size() != 0) truth.emplace(input.surface);
   const bool colour = !input.recording || !input.recording->frames().front().colour.empty();
-  NbvLoop loop{FusedMap(around(input.bounds, o.voxel_m, colour), std::move(truth)),
-               std::move(utility), Pool(input.views), std::move(selector)};
+  NbvLoop loop{FusedMap(around(input.bounds, o.voxel_m, colour), std::move(truth)), std::move(utility),
+               Pool(input.views), std::move(selector)};
 
   MissionClock clock(o.clock);
   Recorder recorder(
       RecorderConfig{.file = o.out / "mission.json", .config = config(o, input), .seed = o.seed, .with_prior = false},
       Judge{input, o.threshold_m});
   Album album(o.keep_views ? o.out / "views" : "", o.range_m);
-  Progress progress(
-      recorder.record(), log,
-      {.budget_s = o.budget_s, .budget_steps = o.most_measurements().value_or(o.measurements), .terminal_fd = STDERR_FILENO, .utf8 = locale_is_utf8()});
+  Progress progress(recorder.record(), log,
+                    {.budget_s = o.budget_s,
+                     .budget_steps = o.most_measurements().value_or(o.measurements),
+                     .terminal_fd = STDERR_FILENO,
+                     .utf8 = locale_is_utf8()});
   loop.run(world, input.start, Views(&input.start, 1), o.stop_rule(), clock, Rng(o.seed), recorder, album, progress);
   write_results(o, input, loop.map, album, recorder.record());
   return {.record = recorder.record()};
@@ -50,8 +52,7 @@ Mission fly(const Options& o, const Input& input, std::ostream& log, World& worl
 
 template <class World>
 Mission choose(const Options& o, const Input& input, std::ostream& log, World&& world) {
-  if (o.method == "max_view_distance")
-    return fly(o, input, log, world, ViewDistance<Nearest>{}, ArgMax{});
+  if (o.method == "max_view_distance") return fly(o, input, log, world, ViewDistance<Nearest>{}, ArgMax{});
   if (o.method == "random") return fly(o, input, log, world, Uninformed{}, ArgMax{});
   return fly(o, input, log, world, Uninformed{}, InOrder{});
 }
@@ -60,9 +61,9 @@ Mission choose(const Options& o, const Input& input, std::ostream& log, World&& 
 
 Mission look_around(const Options& o, const Input& input, std::ostream& log) {
   if (input.recording)
-    return choose(
-        o, input, log,
-        ReplayWorld(input.views, [&](std::size_t i) { return within(input.recording->frame(i), o.range_m); }));
+    return choose(o, input, log, ReplayWorld(input.views, [&](std::size_t i) {
+                    return within(input.recording->frame(i), o.range_m);
+                  }));
   return choose(o, input, log, RgbdWorld(*input.scene, Rng(o.seed).fork(1), o.sensor()));
 }
 

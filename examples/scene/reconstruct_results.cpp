@@ -44,8 +44,7 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
            concat("a ball of ", short_number(100 * o.body_radius_m), " cm")}};
 }
 
-Plot curve(const std::vector<Score>& scores, std::string title, std::string unit,
-           double Score::*value) {
+Plot curve(const std::vector<Score>& scores, std::string title, std::string unit, double Score::*value) {
   Plot plot{.title = std::move(title), .x_label = "mission time [s]", .y_label = std::move(unit), .curves = {}};
   Curve& c = plot.curves.emplace_back();
   for (const Score& s : scores) {
@@ -79,8 +78,7 @@ void write_reconstruction(const Options& o, const Input& input, const Referee& r
            seen_surface(input, referee));
   page.add_mesh(result.mesh, album);
   page.add_views(album);
-  report.plots.push_back(
-      curve(result.scores, "Renderings against the truth", "PSNR [dB]", &Score::psnr_db));
+  report.plots.push_back(curve(result.scores, "Renderings against the truth", "PSNR [dB]", &Score::psnr_db));
   report.plots.back().from_zero = false;
   report.plots.push_back(curve(result.scores, concat("Surface within ", short_number(100 * o.threshold_m), " cm"),
                                "completeness", &Score::completeness));

@@ -102,8 +102,8 @@ TEST_F(SceneMission, LooksAtObjectsFromAround) {
     EXPECT_EQ(text_of(folder.path / "a" / picture).substr(1, 3), "PNG") << picture;
 }
 
-// Floor and walls lie on the bounds of the scene: the volume in which they are fused must go on behind them. Three views,
-// then two, of a folder named with a slash at its end.
+// Floor and walls lie on the bounds of the scene: the volume in which they are fused must go on behind them. Three
+// views, then two, of a folder named with a slash at its end.
 TEST_F(SceneMission, FusesTheWallsOfARoom) {
   std::filesystem::create_directory(folder.path / "hall");
   std::ofstream(folder.path / "hall" / "scene.json")

@@ -200,7 +200,7 @@ class NbvLoop {
   }
   template <class O>
   void tell_departed(O& o, const Decision& decision, const Rng& rng) {
-    if constexpr (requires(Rng& own) { o.departed(map, decision, own); }) {
+    if constexpr (requires(Rng & own) { o.departed(map, decision, own); }) {
       Rng own = rng.fork(1);
       o.departed(map, decision, own);
     }
