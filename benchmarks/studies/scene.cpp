@@ -98,7 +98,17 @@ struct Runs {
   std::map<std::string, std::vector<double>> figures;
   std::map<std::string, std::vector<std::vector<double>>> curves;  ///< psnr and completeness on the time grid
 
-  [[nodiscard]] Summary summary(const std::string& name) const { return Summary::of(figures.at(name)); }
+  /// The mean of a curve at each time of the grid.
+  [[nodiscard]] std::vector<double> mean(const std::string& curve) const {
+    const auto& all = curves.at(curve);
+    std::vector<double> means;
+    for (std::size_t i = 0; i < all.front().size(); ++i) {
+      std::vector<double> values;
+      for (const std::vector<double>& c : all) values.push_back(c[i]);
+      means.push_back(Summary::of(values).mean);
+    }
+    return means;
+  }
 };
 
 void add(Runs& runs, const Json& result, const std::vector<double>& grid) {
@@ -108,7 +118,7 @@ void add(Runs& runs, const Json& result, const std::vector<double>& grid) {
     std::vector<double> values;
     for (const Json& x : result[name]) values.push_back(number(x));
     runs.figures[name].push_back(values.back());
-    runs.curves[name].push_back(held(elapsed, values, grid));
+    runs.curves[name].push_back(between_looks(elapsed, values, grid));
   }
   for (const char* name : {"coverage", "collisions", "views", "surfels", "way_m", "planning_s", "mapping_s"})
     runs.figures[name].push_back(number(result[name]));
@@ -140,7 +150,7 @@ Json make_rows(const std::vector<Runs>& all) {
     for (const auto& [name, values] : r.figures) {
       const Summary s = Summary::of(values);
       row[name] = number(s.mean);
-      row[name + "_deviation"] = number(s.deviation);
+      row[name + "_deviation"] = number(s.count > 1 ? s.deviation : nan);
     }
     rows.push_back(std::move(row));
   }
@@ -174,6 +184,23 @@ std::string results_table(const Json& rows, const std::string& scene, const std:
   return table.text();
 }
 
+/// What each method has reached by each time of the grid, on average.
+std::string progress_table(const std::vector<Runs>& all, const std::string& scene, const std::string& clock,
+                           const std::vector<double>& grid) {
+  std::vector<std::string> header = {"PSNR [dB], completeness [%] after"};
+  for (const double t : grid) header.push_back(short_number(t) + " s");
+  Markdown table(header);
+  for (const Runs& r : all) {
+    if (r.scene != scene || r.clock != clock || r.curves.empty()) continue;
+    const std::vector<double> psnr = r.mean("psnr"), completeness = r.mean("completeness");
+    std::vector<std::string> cells = {r.method};
+    for (std::size_t i = 0; i < grid.size(); ++i)
+      cells.push_back(decimals(psnr[i], 2) + ", " + decimals(100 * completeness[i], 1));
+    table.row(cells);
+  }
+  return table.text();
+}
+
 std::string write_plot(const SceneOptions& o, const std::vector<Runs>& all, const std::string& scene,
                        const std::string& clock, const std::string& what, const std::vector<double>& grid) {
   Plot plot{.title = what + ", " + (scene == "all" ? std::string("all scenes") : scene) + ", " + clock + " clock",
@@ -186,13 +213,11 @@ std::string write_plot(const SceneOptions& o, const std::vector<Runs>& all, cons
   for (const Runs& r : all) {
     if (r.scene != scene || r.clock != clock || r.curves.empty()) continue;
     Curve curve{.name = r.method, .x = {}, .y = {}};
+    const std::vector<double> mean = r.mean(what);
     for (std::size_t i = 0; i < grid.size(); ++i) {
-      std::vector<double> values;
-      for (const std::vector<double>& c : r.curves.at(what))
-        if (std::isfinite(c[i])) values.push_back(c[i]);
-      if (values.empty()) continue;
+      if (!std::isfinite(mean[i])) continue;
       curve.x.push_back(grid[i]);
-      curve.y.push_back(Summary::of(values).mean);
+      curve.y.push_back(mean[i]);
     }
     plot.curves.push_back(std::move(curve));
   }
@@ -225,7 +250,7 @@ void write_tables(const SceneOptions& o, const Units& store) {
   for (const std::string& scene : scenes)
     for (const std::string& clock : o.clocks) {
       text += "\n## " + (scene == "all" ? std::string("All scenes") : scene) + ", " + clock + " clock\n\n" +
-              results_table(rows, scene, clock);
+              results_table(rows, scene, clock) + "\n" + progress_table(all, scene, clock, grid);
       for (const char* what : {"psnr", "completeness"})
         text += "\n![](" + write_plot(o, all, scene, clock, what, grid) + ")";
       text += "\n";

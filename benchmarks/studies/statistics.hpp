@@ -61,17 +61,41 @@ inline std::vector<double> time_grid(double end_s, double step_s) {
   return t;
 }
 
+namespace detail {
+
+inline void check_history(const char* where, std::span<const double> time, std::span<const double> value) {
+  if (time.size() != value.size())
+    throw vantage::Error(where, vantage::concat(time.size(), " times, ", value.size(), " values"), "as many of each");
+  if (!std::is_sorted(time.begin(), time.end())) throw vantage::Error(where, "the times do not ascend", "a history");
+}
+
+}  // namespace detail
+
 /// A quantity that changes at each of `time` (ascending) and holds its value until the next, on a grid; NaN before the
 /// first: what is known of a map at a time is what the last measurement before it left.
 inline std::vector<double> held(std::span<const double> time, std::span<const double> value,
                                 std::span<const double> grid) {
-  if (time.size() != value.size())
-    throw vantage::Error("held", vantage::concat(time.size(), " times, ", value.size(), " values"), "as many of each");
-  if (!std::is_sorted(time.begin(), time.end())) throw vantage::Error("held", "the times do not ascend", "a history");
+  detail::check_history("held", time, value);
   std::vector<double> out;
   for (const double t : grid) {
     const auto after = std::upper_bound(time.begin(), time.end(), t);
     out.push_back(after == time.begin() ? nan : value[static_cast<std::size_t>(after - time.begin()) - 1]);
+  }
+  return out;
+}
+
+/// A quantity that was looked at at each of `time` (ascending) and changed in between, on a grid: straight lines
+/// between the looks, the last value after them; NaN before the first.
+inline std::vector<double> between_looks(std::span<const double> time, std::span<const double> value,
+                                         std::span<const double> grid) {
+  detail::check_history("between_looks", time, value);
+  std::vector<double> out;
+  for (const double t : grid) {
+    const auto after = static_cast<std::size_t>(std::upper_bound(time.begin(), time.end(), t) - time.begin());
+    if (after == 0 || after == time.size())
+      out.push_back(after == 0 ? nan : value.back());
+    else
+      out.push_back(std::lerp(value[after - 1], value[after], (t - time[after - 1]) / (time[after] - time[after - 1])));
   }
   return out;
 }

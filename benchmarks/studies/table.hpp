@@ -29,9 +29,10 @@ inline std::string decimals(double x, int digits) {
   std::snprintf(text, sizeof text, "%.*f", digits, x);
   return text;
 }
-/// "0.026 ± 0.002".
+/// "0.026 ± 0.002"; without a deviation "0.026".
 inline std::string with_deviation(double mean, double deviation, int digits) {
-  return std::isnan(mean) ? "-" : decimals(mean, digits) + " ± " + decimals(deviation, digits);
+  return decimals(mean, digits) +
+         (std::isnan(mean) || std::isnan(deviation) ? "" : " ± " + decimals(deviation, digits));
 }
 /// A time or a size in three digits, whatever its magnitude.
 inline int three_digits(double x) { return x >= 100 || x == 0 ? 0 : x >= 10 ? 1 : x >= 1 ? 2 : 3; }

@@ -58,7 +58,9 @@ struct Options : MissionOptions {
     budget_s = 300;
   }
   [[nodiscard]] int cells_a_side() const { return resolution.value_or(protocol == Protocol::lawnmower81 ? 64 : 32); }
-  [[nodiscard]] int depth() const { return std::bit_width(static_cast<unsigned>(cells_a_side())) - 1; }
+  [[nodiscard]] int depth() const {
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(cells_a_side()))) - 1;
+  }
 };
 
 inline void add_options(CLI::App& app, Options& o) {

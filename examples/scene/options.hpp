@@ -99,6 +99,7 @@ struct Options : MissionOptions {
 
 inline void add_options(CLI::App& app, Options& o) {
   add_mission_options(app, o, methods());
+  app.get_option("--budget")->default_str("300 with surfels, 900 with voxels; none to look around");
   app.parse_complete_callback([&app, &o] {
     if (app.count("--method") == 0 && !o.can_explore()) o.method = "max_view_distance";
   });
@@ -106,10 +107,11 @@ inline void add_options(CLI::App& app, Options& o) {
       ->type_name("DIR|FILE");
   app.add_option("--object", o.objects, "What to look at: models that are put on a ground plane, at random poses")
       ->type_name("PATH...");
-  app.add_option("--recording", o.recording,
-                 "A recording instead of a simulation: TUM RGB-D, transforms.json, COLMAP text, or colour/ depth/ "
-                 "poses.txt camera.txt")
-      ->type_name("DIR");
+  auto* const recording =
+      app.add_option("--recording", o.recording,
+                     "A recording instead of a simulation: TUM RGB-D, transforms.json, COLMAP text, or colour/ depth/ "
+                     "poses.txt camera.txt")
+          ->type_name("DIR");
   app.add_option("--room", o.room, "A furnished room made from a seed")
       ->check(vantage::detail::whole_number())
       ->type_name("SEED");
@@ -119,16 +121,17 @@ inline void add_options(CLI::App& app, Options& o) {
       ->type_name("X Y Z");
   const auto number = [&](const char* name, double& value, const char* about, double low, double high,
                           const char* unit) {
-    app.add_option(name, value, about)
+    return app.add_option(name, value, about)
         ->check(vantage::detail::between(low, high))
         ->capture_default_str()
         ->type_name(unit);
   };
   app.add_option("--pixels", o.pixels, "Width and height of the simulated camera")
       ->check(CLI::Range(16, 4096))
+      ->excludes(recording)
       ->capture_default_str()
       ->type_name("N");
-  number("--fov", o.field_of_view_deg, "Its field of view", 5, 150, "DEGREES");
+  number("--fov", o.field_of_view_deg, "Its field of view", 5, 150, "DEGREES")->excludes(recording);
   number("--range", o.range_m, "Depths beyond have no value", 0.1, 1000, "METRES");
   number("--depth-noise", o.depth_noise, "Standard deviation of a depth, as a share of it", 0, 1, "SHARE");
   number("--body", o.body_radius_m, "Radius of the robot, which keeps so far from every surface", 0.01, 10, "METRES");

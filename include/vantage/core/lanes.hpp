@@ -95,6 +95,10 @@ LaneMask operator<(const Lanes<T>& a, const Lanes<T>& b) {
   return LaneMask::each([&](std::size_t p) { return a.part[p] < b.part[p]; });
 }
 template <class T>
+LaneMask operator==(const Lanes<T>& a, const Lanes<T>& b) {
+  return LaneMask::each([&](std::size_t p) { return a.part[p] == b.part[p]; });
+}
+template <class T>
 LaneMask operator>=(const Lanes<T>& a, const Lanes<T>& b) {
   return LaneMask::each([&](std::size_t p) { return a.part[p] >= b.part[p]; });
 }

@@ -24,6 +24,7 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/loop/clocks.hpp>
+#include <vantage/mission/text.hpp>
 #include <vantage/version.hpp>
 
 // What every mission's command line shares, and how every program ends.
@@ -192,7 +193,7 @@ inline void add_mission_options(CLI::App& app, MissionOptions& options, const st
       ->type_name("NAME");
   app.add_option("--budget", options.budget_s, "Mission time: planning + mapping + flight")
       ->check(positive)
-      ->capture_default_str()
+      ->default_str(std::isfinite(options.budget_s) ? short_number(options.budget_s) : "none")
       ->type_name("SECONDS");
   app.add_option("--measurements", options.measurements, "Stop after so many measurements")
       ->check(whole)

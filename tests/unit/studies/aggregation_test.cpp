@@ -54,6 +54,19 @@ TEST(Statistics, AHistoryOnAGrid) {
   EXPECT_THROW((void)held(std::vector{2.0}, std::vector{1.0, 1.0}, grid), vantage::Error);
 }
 
+TEST(Statistics, LooksOnAGrid) {
+  const std::vector<double> grid = time_grid(10, 2.5), looks = {1, 6}, seen = {4, 14};
+  const std::vector<double> values = between_looks(looks, seen, grid);
+  EXPECT_TRUE(std::isnan(values[0]));
+  EXPECT_DOUBLE_EQ(values[1], 7);
+  EXPECT_DOUBLE_EQ(values[2], 12);
+  EXPECT_EQ(values[3], 14);
+  EXPECT_EQ(values[4], 14);
+  EXPECT_EQ(between_looks(looks, seen, looks), seen);
+  EXPECT_EQ(between_looks(std::vector{1.0, 1.0}, std::vector{2.0, 3.0}, std::vector{1.0})[0], 3);
+  EXPECT_THROW((void)between_looks(std::vector{2.0, 1.0}, seen, grid), vantage::Error);
+}
+
 TEST(Tables, Csv) {
   const Json rows = {{{"name", "a, \"b\""}, {"value", 0.5}, {"none", nullptr}},
                      {{"name", "c"}, {"value", 3}, {"none", 1}}};
@@ -69,6 +82,7 @@ TEST(Tables, Markdown) {
   EXPECT_THROW(table.row(std::vector<std::string>{"1"}), vantage::Error);
   EXPECT_EQ(with_deviation(0.0264, 0.0023, 3), "0.026 ± 0.002");
   EXPECT_EQ(with_deviation(nan, 1, 3), "-");
+  EXPECT_EQ(with_deviation(0.0264, nan, 3), "0.026");
 }
 
 Figures thesis(int size) {

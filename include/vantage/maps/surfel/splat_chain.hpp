@@ -55,9 +55,10 @@ PoseGradient add_gradient(const Surfels& s, const RasterView& view, const Visibl
     for (std::size_t i = 0; i < splats.count(c); i += 16) {
       const std::size_t n = std::min<std::size_t>(16, splats.count(c) - i), first = c * VisibleSplats::chunk + i;
       const std::uint32_t* index = splats.surfel.data() + first;
+      const std::array<L, 16> v = gather_sums(bins, sums, first, n);
+      if (std::ranges::all_of(v, [](const L& sum) { return bits(sum == L(0)) == 0xFFFF; })) continue;  // hidden
       const surfel::Parameters<L> in = gather_surfels(s, index, n);
       const Splat<L> splat = project<Depth>(camera, in);
-      const std::array<L, 16> v = gather_sums(bins, sums, first, n);
       SplatGradient<L> g = gradient_by_alpha<L>(splat, {v[10], v[11], v[12], v[13], v[14], v[15]});
       g.z = v[by_depth];
       g.slope = {v[by_depth + 2], v[by_depth + 3]};

@@ -96,6 +96,11 @@ class TileBins {
       out.clear();
       for (std::size_t i = begin; i < end; ++i) {
         const std::uint32_t k = order_[i].splat;
+        if (i + 16 < end) {  // splats stand in memory in another order
+          const std::uint32_t soon = order_[i + 16].splat;
+          __builtin_prefetch(&splats.splat[soon]);
+          __builtin_prefetch(&splats.box[soon]);
+        }
         const std::size_t before = out.size();
         for_tiles<tile>(splats.splat[k], splats.box[k], [&](std::size_t t) {
           out.push_back({static_cast<std::uint32_t>(t), k});

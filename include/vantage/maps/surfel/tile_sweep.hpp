@@ -33,7 +33,8 @@ void sweep_tile(const VisibleSplats& from, std::span<const std::uint32_t> index,
     light[b] = Transmittance(at, b);
   }
   TileSplats<tile> splats;
-  for (std::size_t i = 0; i < index.size(); i += splats.capacity) {
+  std::size_t i = 0;
+  for (; i < index.size() && open != 0; i += splats.capacity) {
     splats.load(from, index.subspan(i, std::min(index.size() - i, splats.capacity)), at);
     for (std::size_t k = 0; k < splats.n; ++k) {
       const PackedSplat& s = splats.splat[k];
@@ -46,6 +47,7 @@ void sweep_tile(const VisibleSplats& from, std::span<const std::uint32_t> index,
       pixels.write(sums, i + k);
     }
   }
+  for (; i < index.size(); ++i) pixels.write({}, i);  // hidden
 }
 
 /// Derivatives of a loss by a splat: colour, then depth by z, by its slope, and that by dx, dy; normal; then with h the
