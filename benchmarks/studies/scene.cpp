@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -184,17 +185,17 @@ std::string results_table(const Json& rows, const std::string& scene, const std:
   return table.text();
 }
 
-/// What each method has reached by each time of the grid, on average.
+/// What each method has reached by each time of the grid but its first, on average.
 std::string progress_table(const std::vector<Runs>& all, const std::string& scene, const std::string& clock,
-                           const std::vector<double>& grid) {
+                           std::span<const double> grid) {
   std::vector<std::string> header = {"PSNR [dB], completeness [%] after"};
-  for (const double t : grid) header.push_back(short_number(t) + " s");
+  for (const double t : grid.subspan(1)) header.push_back(short_number(t) + " s");
   Markdown table(header);
   for (const Runs& r : all) {
     if (r.scene != scene || r.clock != clock || r.curves.empty()) continue;
     const std::vector<double> psnr = r.mean("psnr"), completeness = r.mean("completeness");
     std::vector<std::string> cells = {r.method};
-    for (std::size_t i = 0; i < grid.size(); ++i)
+    for (std::size_t i = 1; i < grid.size(); ++i)
       cells.push_back(decimals(psnr[i], 2) + ", " + decimals(100 * completeness[i], 1));
     table.row(cells);
   }
