@@ -70,7 +70,8 @@ struct RayCast {
 };
 
 /// Visits the voxels of a segment from its first to the one before its last (Amanatides and Woo, "A fast voxel
-/// traversal algorithm", Eurographics 1987); what lies outside of [0, size) is skipped. In units of voxels.
+/// traversal algorithm", Eurographics 1987); what lies outside of [0, size) is skipped. In units of voxels. A GridRay
+/// has no end but its length, and can leave blocks; a walk knows its last voxel, and has no branches.
 class VoxelWalk {
  public:
   /// `to` in [0, size).
