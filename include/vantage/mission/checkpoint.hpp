@@ -111,14 +111,14 @@ void restore_checkpoint(std::span<const std::byte> bytes, const std::string& whe
   (read(parts), ...);
   source.done();
 
-  // Every part checks before it changes; should a later one refuse, the earlier ones are set back.
+  // Every part checks before it changes; should a later one refuse, or one leave bytes over, all so far are set back.
   const std::vector<std::vector<std::byte>> before = {detail::saved(parts)...};
   std::size_t done = 0;
   try {
     ((detail::restore(parts, found[done], where), ++done), ...);
   } catch (...) {
     std::size_t i = 0;
-    ((i < done ? detail::restore(parts, before[i], where) : void(), ++i), ...);
+    ((i <= done ? detail::restore(parts, before[i], where) : void(), ++i), ...);
     throw;
   }
 }
