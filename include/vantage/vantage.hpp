@@ -58,6 +58,7 @@
 #include <vantage/maps/field/prior.hpp>
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
+#include <vantage/maps/field/separable_basis.hpp>
 #include <vantage/maps/surfel/confidence.hpp>
 #include <vantage/maps/surfel/densify.hpp>
 #include <vantage/maps/surfel/depth_model.hpp>

@@ -26,9 +26,10 @@ class SceneMission : public MissionProgram {
   }
 };
 
-std::string measuring(int times) {
-  return " --pixels 96 --fov 90 --clock modelled --threshold 0.05 --measurements " + std::to_string(times);
+std::string stopping_after(int times) {
+  return " --clock modelled --threshold 0.05 --measurements " + std::to_string(times);
 }
+std::string measuring(int times) { return " --pixels 96 --fov 90" + stopping_after(times); }
 const std::string quick = measuring(5) + " --voxel 0.05 --method max_view_distance";
 
 TEST_F(SceneMission, LeavesWhatItPromises) {
@@ -79,7 +80,8 @@ TEST_F(SceneMission, ItsViewsAreARecordingThatReplays) {
   EXPECT_FALSE(frame.colour.empty());
   EXPECT_GT(frame.labels.maxCoeff(), 0);
 
-  const Ended e = run("--recording '" + views.string() + "' --method in_order --voxel 0.05" + measuring(5) + out("b"));
+  const Ended e =
+      run("--recording '" + views.string() + "' --method in_order --voxel 0.05" + stopping_after(5) + out("b"));
   ASSERT_EQ(e.code, 0) << e.err;
   const auto before = mission("a")["steps"], after = mission("b")["steps"];
   ASSERT_EQ(after.size(), 5u);
