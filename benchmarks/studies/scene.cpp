@@ -89,7 +89,7 @@ Json reconstruct(const SceneOptions& o, const Unit& unit) {
   result["views"] = last.index;
   result["way_m"] = last.travelled_m;
   result["planning_s"] = planning_s / std::max(plans, 1.0);
-  result["mapping_s"] = mapping_s / static_cast<double>(mission.record.steps.size());
+  result["mapping_s"] = mapping_s / static_cast<double>(last.index);
   return result;
 }
 

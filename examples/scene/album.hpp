@@ -53,12 +53,15 @@ inline Picture strip(const Frame& frame, double range_m, int width = 300) {
 }
 
 /// Observer that writes what the camera saw, as a recording which can be replayed: colour/, depth/, labels/, poses.txt
-/// and camera.txt; no folder, no files. Depth in quarter millimetres, or coarser if it goes beyond 16 m. Keeps strips
-/// of colour, depth and labels in memory, of every k-th frame, so that there are `most_strips` at most.
+/// and camera.txt, and the names of the classes in classes.txt, a number and a name a line; no folder, no files. Depth
+/// in quarter millimetres, or coarser if it goes beyond 16 m. Keeps strips of colour, depth and labels in memory, of
+/// every k-th frame, so that there are `most_strips` at most.
 class Album {
  public:
-  Album(std::filesystem::path folder, double range_m, std::size_t most_strips = 12)
+  Album(std::filesystem::path folder, double range_m, std::vector<std::string> classes = {},
+        std::size_t most_strips = 12)
       : folder_(std::move(folder)),
+        classes_(std::move(classes)),
         range_m_(range_m),
         depth_unit_m_(std::max(0.00025, range_m / 65000)),
         most_(most_strips) {}
@@ -98,6 +101,9 @@ class Album {
       make_folder(folder_);
       write_file(folder_ / "camera.txt", concat("width ", c.width, "\nheight ", c.height, "\nfx ", c.fx, "\nfy ", c.fy,
                                                 "\ncx ", c.cx, "\ncy ", c.cy, "\ndepth_unit_m ", depth_unit_m_, "\n"));
+      std::string names;
+      for (std::size_t i = 0; i < classes_.size(); ++i) names += concat(i, ' ', classes_[i], '\n');
+      if (!names.empty()) write_file(folder_ / "classes.txt", names);
     }
     const auto file = [&](const char* kind) {
       make_folder(folder_ / kind);
@@ -115,6 +121,7 @@ class Album {
     write_file(folder_ / "poses.txt", poses_);
   }
   std::filesystem::path folder_;
+  std::vector<std::string> classes_;
   double range_m_, depth_unit_m_;
   std::size_t most_, every_ = 1;
   std::string poses_;

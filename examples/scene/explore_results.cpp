@@ -9,10 +9,10 @@
 #include <vector>
 
 #include <vantage/eval/mesh_metrics.hpp>
-#include <vantage/io/file.hpp>
 
 #include "flight.hpp"
 #include "page.hpp"
+#include "truth.hpp"
 
 namespace scene {
 namespace {
@@ -44,29 +44,21 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
 void write_exploration(const Options& o, const Input& input, const Referee& referee, const Album& album,
                        const MissionRecord& record) {
   const TriangleMesh mesh = referee.fused().mesh();
-  const MeshMetrics judged =
-      mesh_metrics(mesh, input.scene->mesh, input.surface, {.threshold_m = o.threshold_m, .samples = 200'000}, Rng(1));
+  const MeshMetrics judged = against_truth(mesh, input, o.threshold_m);
   Page page{o, {.title = "Exploring " + input.name}};
+  page.clear();
   Report& report = page.report;
   report.lead = concat("A robot that knew nothing of ", input.name, " explored it, method ", o.method, ": ",
                        record.steps.back().index, " views, fused into a mesh of ", mesh.triangles.size(),
                        " triangles. It flew only where its map of voxels was free. ", input.note);
   report.figures = key_figures(o, record, judged, referee);
-  page.add("map.png", "The map from above",
-           "White is free, dark occupied, grey unknown; the way in blue, a dot for each view and the way it looks, "
-           "black where it started.",
-           from_above(referee.growth().back(), referee, record, 1000));
-  page.add("growth.png", "How the map grew", "After a quarter, half, three quarters and all of the views.",
-           growth_strip(referee, record));
-  page.add("coverage.png", "Surface seen", "Grey surface was seen, red was not, though it can be.",
-           seen_surface(input, referee));
+  add_flight(page, input, referee, record);
   page.add_mesh(mesh, album);
   page.add_views(album);
   report.plots.push_back(
       metric_plot(record, "Of the surface that can be seen, and of the box", "share", {"coverage", "explored"}));
   report.plots.back().y_least_top = 1;
   report.plots.push_back(metric_plot(record, "Nearest surface on the way to a view", "m", {"clearance_m"}));
-  write_file(o.out / "path.csv", path_csv(referee));
   page.write(record);
 }
 

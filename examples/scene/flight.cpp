@@ -5,17 +5,20 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <string>
 #include <vector>
 
+#include <vantage/io/file.hpp>
 #include <vantage/mission/canvas.hpp>
+
+#include "truth.hpp"
 
 namespace scene {
 namespace {
 
-constexpr Rgb ink = {20, 20, 20}, blue = {0, 114, 178}, red = {214, 69, 61};
+constexpr Rgb ink = {20, 20, 20}, blue = {0, 114, 178};
 
-}  // namespace
-
+// After a step of the mission.
 Picture from_above(const Referee::Growth& growth, const Referee& referee, const MissionRecord& record, int longer_px) {
   Canvas canvas(referee.growth().back().plan.known(), longer_px);
   growth.plan.fill(canvas);
@@ -36,6 +39,7 @@ Picture from_above(const Referee::Growth& growth, const Referee& referee, const 
   return canvas.picture();
 }
 
+// Four moments of the mission side by side.
 Picture growth_strip(const Referee& referee, const MissionRecord& record) {
   const std::vector<Referee::Growth>& growth = referee.growth();
   constexpr int gap = 12;
@@ -53,16 +57,9 @@ Picture growth_strip(const Referee& referee, const MissionRecord& record) {
 }
 
 Picture seen_surface(const Input& input, const Referee& referee) {
-  const SurfaceCoverage& truth = *referee.fused().truth();
   Canvas canvas(Box2(input.bounds.min().head<2>(), input.bounds.max().head<2>()), 1000);
   canvas.fill([](const Eigen::Vector2d&) { return Rgb{250, 250, 248}; });
-  const double ceiling_m = input.bounds.max().z() - 0.3, floor_m = input.bounds.min().z() + 0.1;
-  for (const bool seen : {true, false})
-    for (std::size_t i = 0; i < truth.surface().size(); ++i) {
-      const Eigen::Vector3d p = truth.surface().points[i].cast<double>();
-      if ((truth.seen()[i] != 0) != seen || p.z() > ceiling_m || p.z() < floor_m) continue;
-      canvas.dot(p.head<2>(), 1.1, seen ? Rgb{120, 128, 136} : red, seen ? 0.25 : 0.7);
-    }
+  draw_seen(canvas, *referee.fused().truth(), input.bounds);
   return canvas.picture();
 }
 
@@ -74,6 +71,20 @@ std::string path_csv(const Referee& referee) {
       csv += concat(leg + 1, ',', p.x(), ',', p.y(), ',', p.z(), ',', std::atan2(f.y(), f.x()), '\n');
     }
   return csv;
+}
+
+}  // namespace
+
+void add_flight(Page& page, const Input& input, const Referee& referee, const MissionRecord& record) {
+  page.add("map.png", "The map from above",
+           "White is free, dark occupied, grey unknown; the way in blue, a dot for each view and the way it looks, "
+           "black where it started.",
+           from_above(referee.growth().back(), referee, record, 1000));
+  page.add("growth.png", "How the map grew", "After a quarter, half, three quarters and all of the views.",
+           growth_strip(referee, record));
+  page.add("coverage.png", "Surface seen", "Grey surface was seen, red was not, though it can be.",
+           seen_surface(input, referee));
+  write_file(page.options.out / "path.csv", path_csv(referee));
 }
 
 double least_clearance_m(const MissionRecord& record) {

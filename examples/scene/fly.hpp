@@ -12,6 +12,7 @@
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/mission_state.hpp>
 #include <vantage/loop/refine_in_flight.hpp>
+#include <vantage/loop/skip_refused.hpp>
 #include <vantage/mission/checkpoint.hpp>
 #include <vantage/mission/progress.hpp>
 #include <vantage/mission/recorder.hpp>
@@ -37,7 +38,8 @@ template <class Loop, class Stop, class... Judges>
 Flown fly(const Options& o, const Input& input, std::ostream& log, Loop& loop, Views first, const Stop& stop,
           const ModelledClock::Config& costs, Judges&... judges) {
   RgbdWorld world(*input.scene, Rng(o.seed).fork(1), o.sensor());
-  Flown flown{.referee = Referee(input, o), .album = Album(o.keep_views ? o.out / "views" : "", o.range_m)};
+  Flown flown{.referee = Referee(input, o),
+              .album = Album(o.keep_views ? o.out / "views" : "", o.range_m, input.scene->classes)};
   MissionClock clock(o.clock, costs);
   MissionState state{.here = input.start, .rng = Rng(o.seed)};
   Recorder recorder(
@@ -66,8 +68,9 @@ Flown fly(const Options& o, const Input& input, std::ostream& log, Loop& loop, V
   }
   first = first.first(std::min<std::size_t>(first.size(), o.measurements));
   RefineInFlight refine{o.refine_per_s};
+  SkipRefused skip(log);
   loop.resume(world, state, first, stop, clock, refine, flown.referee, judges..., recorder, flown.album, progress,
-              checkpoint);
+              checkpoint, skip);
   flown.record = recorder.record();
   return flown;
 }

@@ -64,12 +64,9 @@ inline void look_from_inside(Input& input, const Options& o) {
   const auto is_free = [&](const Eigen::Vector3d& p) {
     return static_cast<double>(nearest(p.cast<float>()).distance_m) >= o.body_radius_m;
   };
-  if (!o.start.empty())
-    input.start.T_W_C.translation() = Eigen::Vector3d(o.start[0], o.start[1], o.start[2]);
-  else if (scene.start)
-    input.start = *scene.start;
-  else
-    input.start.T_W_C.translation() = scene.mesh.bounds().center();
+  const Eigen::Vector3d centre = scene.mesh.bounds().center();
+  input.start = scene.start.value_or(look_at(centre, centre + Eigen::Vector3d::UnitX()));
+  if (!o.start.empty()) input.start.T_W_C.translation() = Eigen::Vector3d(o.start[0], o.start[1], o.start[2]);
   const Eigen::Vector3d start = input.start.position();
   if (!is_free(start))
     throw Error(input.name,

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/nbv_loop.hpp>
@@ -39,7 +41,9 @@ Mission fly(const Options& o, const Input& input, std::ostream& log, World& worl
   Recorder recorder(
       RecorderConfig{.file = o.out / "mission.json", .config = config(o, input), .seed = o.seed, .with_prior = false},
       Judge{input, o.threshold_m});
-  Album album(o.keep_views ? o.out / "views" : "", o.range_m);
+  // What is replayed is kept already, perhaps in this very folder.
+  Album album(o.keep_views && input.scene ? o.out / "views" : "", o.range_m,
+              input.scene ? input.scene->classes : std::vector<std::string>());
   Progress progress(recorder.record(), log,
                     {.budget_s = o.budget_s,
                      .budget_steps = o.most_measurements().value_or(o.measurements),

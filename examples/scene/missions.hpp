@@ -12,7 +12,7 @@
 
 namespace scene {
 
-/// What a reconstruction with surfels was worth at some time of the mission (section 6.2.1).
+/// What a reconstruction with surfels was worth at some time of the mission (section 6.2.2).
 struct Score {
   double elapsed_s = 0;
   double psnr_db = 0;       ///< mean over test views

@@ -102,6 +102,7 @@ inline void add_options(CLI::App& app, Options& o) {
   app.get_option("--budget")->default_str("300 with surfels, 900 with voxels; none to look around");
   app.parse_complete_callback([&app, &o] {
     if (app.count("--method") == 0 && !o.can_explore()) o.method = "max_view_distance";
+    if (app.count("--range") == 0 && !o.objects.empty()) o.range_m = 20;  // from where all of them are in view
   });
   app.add_option("--scene", o.scene, "Where to look around: a folder with a scene.json, or a mesh (OBJ, glTF, PLY)")
       ->type_name("DIR|FILE");
@@ -109,9 +110,9 @@ inline void add_options(CLI::App& app, Options& o) {
       ->type_name("PATH...");
   auto* const recording =
       app.add_option("--recording", o.recording,
-                     "A recording instead of a simulation: TUM RGB-D, transforms.json, COLMAP text, or colour/ depth/ "
-                     "poses.txt camera.txt")
-          ->type_name("DIR");
+                     "A recording with depth instead of a simulation: TUM RGB-D, transforms.json, Replica, or colour/ "
+                     "depth/ poses.txt camera.txt")
+          ->type_name("DIR|FILE");
   app.add_option("--room", o.room, "A furnished room made from a seed")
       ->check(vantage::detail::whole_number())
       ->type_name("SEED");
@@ -132,7 +133,7 @@ inline void add_options(CLI::App& app, Options& o) {
       ->capture_default_str()
       ->type_name("N");
   number("--fov", o.field_of_view_deg, "Its field of view", 5, 150, "DEGREES")->excludes(recording);
-  number("--range", o.range_m, "Depths beyond have no value", 0.1, 1000, "METRES");
+  number("--range", o.range_m, "Depths beyond have no value", 0.1, 1000, "METRES")->default_str("5, of objects 20");
   number("--depth-noise", o.depth_noise, "Standard deviation of a depth, as a share of it", 0, 1, "SHARE");
   number("--body", o.body_radius_m, "Radius of the robot, which keeps so far from every surface", 0.01, 10, "METRES");
   number("--voxel", o.voxel_m, "Voxels of the reconstruction", 0.001, 1, "METRES");
@@ -150,7 +151,7 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--judge-every", o.judge_every_s, "Mission time between judgements of surfels", 1, 1e6, "SECONDS");
   number("--refine", o.refine_per_s, "Iterations that surfels are trained on for every second of flight", 0, 1000,
          "PER_S");
-  app.add_flag("!--no-views", o.keep_views, "Keep no files of what the camera saw");
+  app.add_flag("!--no-views", o.keep_views, "Keep no files of what a simulated camera saw");
   number("--speed", o.speed_m_s, "How fast an explorer flies", 0.01, 100, "METRES/S");
   number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
 }

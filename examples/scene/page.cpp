@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -19,6 +22,20 @@
 namespace scene {
 
 double tenths(double x) { return std::round(10 * x) / 10; }
+
+// Of an earlier mission, which may have had more of them.
+void Page::clear() const {
+  const auto numbered = [](const std::string& name, std::string_view what) {
+    return name.starts_with(what) && name.ends_with(".png") && name.size() > what.size() + 4 &&
+           name.find_first_not_of("0123456789", what.size()) == name.size() - 4;
+  };
+  std::vector<std::filesystem::path> old = {options.out / "mesh.ply", options.out / "mesh.glb"};
+  for (const auto& entry : std::filesystem::directory_iterator(options.out)) {
+    const std::string name = entry.path().filename().string();
+    if (numbered(name, "view_") || numbered(name, "mesh_") || numbered(name, "rendering_")) old.push_back(entry.path());
+  }
+  for (const std::filesystem::path& file : old) std::filesystem::remove(file);
+}
 
 void Page::add(const std::string& file, std::string title, std::string caption, const Picture& picture) {
   std::vector<std::byte> png = encode_png(picture);
@@ -46,10 +63,6 @@ void Page::add_mesh(const TriangleMesh& mesh, const Album& album) {
 }
 
 void Page::add_views(const Album& album) {
-  for (const auto& entry : std::filesystem::directory_iterator(options.out)) {  // of an earlier, longer mission
-    const std::string name = entry.path().filename().string();
-    if (name.starts_with("view_") && name.ends_with(".png")) std::filesystem::remove(entry.path());
-  }
   for (const Album::Strip& s : album.strips())
     add(concat("view_", s.index, ".png"), concat("View ", s.index),
         "Colour, depth (bright is far) and class, as far as the sensor has them.", s.picture);

@@ -17,6 +17,8 @@ struct Page {
   const Options& options;
   Report report;
 
+  /// Removes the meshes and the numbered pictures that a page before this one left.
+  void clear() const;
   void add(const std::string& file, std::string title, std::string caption, const Picture& picture);
   /// mesh.ply, mesh.glb, and what the album's cameras would see of the mesh.
   void add_mesh(const TriangleMesh& mesh, const Album& album);

@@ -26,7 +26,9 @@ Mission reconstruct(const Options& o, const Input& input, std::ostream& log) {
     SurfelJudge judge(input, o);
     Flown flown = fly(o, input, log, loop, first, o.stop_rule(), published_costs, judge);
 
-    Reconstruction result{.scores = judge.scores(), .mesh = surface_of(loop.map, input.bounds, o.voxel_m)};
+    Reconstruction result{.scores = judge.scores(),
+                          .test_views = judge.test_views(),
+                          .mesh = surface_of(loop.map, input.bounds, o.voxel_m)};
     result.scores.push_back(judge.judge(loop.map, flown.record.steps.back().elapsed_s));
     for (std::size_t k = 0; k < 4; ++k)
       result.comparisons.push_back(judge.compare(loop.map, (2 * k + 1) * judge.test_views() / 8));

@@ -8,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include <vantage/io/file.hpp>
-
 #include "flight.hpp"
 #include "page.hpp"
 
@@ -30,13 +28,12 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
   };
   const std::string by = o.clock == ClockKind::real ? "a view, as this machine takes" : "a view, as published";
   return {{"PSNR", short_number(tenths(result.scores.back().psnr_db)), "dB",
-           concat("over ", std::min<std::size_t>(static_cast<std::size_t>(o.test_views), 1000000),
-                  " views from free space")},
+           concat("over ", result.test_views, " views from free space")},
           {"Completeness", short_number(tenths(100 * result.scores.back().completeness)), "%",
            concat("within ", short_number(100 * o.threshold_m), " cm of the mesh")},
           {"Coverage", short_number(tenths(100 * last.metric("coverage"))), "%", "of the surface that can be seen"},
           {"Mission time", short_number(tenths(last.elapsed_s)), "s", "mapping, planning, flight"},
-          {"Mapping", mean_ms(mapping_s, record.steps.size()), "ms", by},
+          {"Mapping", mean_ms(mapping_s, static_cast<std::size_t>(last.index)), "ms", by},
           {"Planning", mean_ms(planning_s, plans), "ms", by},
           {"Way", short_number(tenths(last.travelled_m)), "m", concat(plans, " views flown to")},
           {"Surfels", short_number(last.metric("surfels")), "", concat(tenths(last.metric("megabytes")), " MB in all")},
@@ -59,6 +56,7 @@ Plot curve(const std::vector<Score>& scores, std::string title, std::string unit
 void write_reconstruction(const Options& o, const Input& input, const Referee& referee, const Reconstruction& result,
                           const Album& album, const MissionRecord& record) {
   Page page{o, {.title = "Reconstructing " + input.name}};
+  page.clear();
   Report& report = page.report;
   report.lead =
       concat("A robot that knew nothing of ", input.name, " reconstructed it with surfels, method ", o.method, ": ",
@@ -68,14 +66,7 @@ void write_reconstruction(const Options& o, const Input& input, const Referee& r
     page.add(concat("rendering_", k + 1, ".png"), concat("Test view ", k + 1),
              "Rendered from the surfels; the truth; their confidence (bright is sure); their normals.",
              result.comparisons[k]);
-  page.add("map.png", "The map from above",
-           "White is free, dark occupied, grey unknown; the way in blue, a dot for each view and the way it looks, "
-           "black where it started.",
-           from_above(referee.growth().back(), referee, record, 1000));
-  page.add("growth.png", "How the map grew", "After a quarter, half, three quarters and all of the views.",
-           growth_strip(referee, record));
-  page.add("coverage.png", "Surface seen", "Grey surface was seen, red was not, though it can be.",
-           seen_surface(input, referee));
+  add_flight(page, input, referee, record);
   page.add_mesh(result.mesh, album);
   page.add_views(album);
   report.plots.push_back(curve(result.scores, "Renderings against the truth", "PSNR [dB]", &Score::psnr_db));
@@ -87,7 +78,6 @@ void write_reconstruction(const Options& o, const Input& input, const Referee& r
       metric_plot(record, "Of the surface that can be seen, and of the box", "share", {"coverage", "explored"}));
   report.plots.back().y_least_top = 1;
   report.plots.push_back(metric_plot(record, "Surfels", "number", {"surfels"}));
-  write_file(o.out / "path.csv", path_csv(referee));
   page.write(record);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <cstddef>
 #include <vector>
 
 #include <vantage/geometry/triangle_mesh.hpp>
@@ -16,6 +17,7 @@ namespace scene {
 /// What became of a reconstruction with surfels.
 struct Reconstruction {
   std::vector<Score> scores;  ///< over mission time; the last is that of the end
+  std::size_t test_views;     ///< that they are of
   TriangleMesh mesh;
   std::vector<Picture> comparisons = {};  ///< rendered, truth, confidence, normals, side by side
 };

@@ -12,6 +12,7 @@
 #include <vantage/mission/report.hpp>
 
 #include "page.hpp"
+#include "truth.hpp"
 
 namespace scene {
 
@@ -21,8 +22,7 @@ std::vector<Metric> Judge::operator()(const FusedMap& map) const {
   m.accuracy_m = m.completeness_m = m.precision = m.completeness = m.f1 = coverage;
   if (map.truth()) {
     coverage = map.truth()->coverage();
-    m = mesh_metrics(map.mesh(), input.scene->mesh, input.surface, {.threshold_m = threshold_m, .samples = 200'000},
-                     Rng(1));
+    m = against_truth(map.mesh(), input, threshold_m);
   }
   return {{"coverage", coverage},       {"completeness", m.completeness},
           {"precision", m.precision},   {"f1", m.f1},
@@ -38,17 +38,7 @@ Picture plan(const Input& input, const FusedMap& map, const MissionRecord& recor
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(0.03 * area.sizes().maxCoeff());
   Canvas canvas(Box2(area.min() - margin, area.max() + margin), 1000);
   canvas.fill([](const Eigen::Vector2d&) { return Rgb{250, 250, 248}; });
-  if (map.truth()) {
-    const SurfaceSamples& surface = map.truth()->surface();
-    const double ceiling_m = input.bounds.max().z() - 0.3;
-    for (const bool seen : {true, false})
-      for (std::size_t i = 0; i < surface.size(); ++i) {
-        const Eigen::Vector3d p = surface.points[i].cast<double>();
-        if ((map.truth()->seen()[i] != 0) != seen || p.z() > ceiling_m || p.z() < input.bounds.min().z() + 0.1)
-          continue;
-        canvas.dot(p.head<2>(), 1.1, seen ? Rgb{120, 128, 136} : Rgb{214, 69, 61}, seen ? 0.25 : 0.6);
-      }
-  }
+  if (map.truth()) draw_seen(canvas, *map.truth(), input.bounds);
   const auto spot = [&](std::size_t k) -> Eigen::Vector2d { return record.steps[k].view.position().head<2>(); };
   for (std::size_t k = 1; k < record.steps.size(); ++k) canvas.line(spot(k - 1), spot(k), 1.6, {0, 114, 178}, 0.7);
   for (std::size_t k = 0; k < record.steps.size(); ++k) {
@@ -84,6 +74,7 @@ void write_results(const Options& o, const Input& input, const FusedMap& map, co
                    const MissionRecord& record) {
   const TriangleMesh mesh = map.mesh();
   Page page{o, {.title = "A look around: " + input.name}};
+  page.clear();
   Report& report = page.report;
   report.lead =
       concat("A camera", input.recording ? "'s recording" : "", " of ", input.name, ": ", record.steps.back().index,

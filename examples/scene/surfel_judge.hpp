@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <vantage/eval/image_metrics.hpp>
-#include <vantage/eval/mesh_metrics.hpp>
 #include <vantage/geometry/marching_cubes.hpp>
 #include <vantage/geometry/mesh_components.hpp>
 #include <vantage/geometry/tsdf.hpp>
@@ -22,6 +21,7 @@
 #include "fused_map.hpp"
 #include "input.hpp"
 #include "missions.hpp"
+#include "truth.hpp"
 
 namespace scene {
 
@@ -42,7 +42,7 @@ TriangleMesh surface_of(const M& map, const Box3& bounds, double voxel_m) {
 }
 
 /// Observer that knows the truth: every so many seconds of mission time, how like the scene the map's renderings are,
-/// and how complete its surface is (section 6.2.1). What it does is not counted as mission time. Persistent.
+/// and how complete its surface is (section 6.2.2). What it does is not counted as mission time. Persistent.
 class SurfelJudge {
  public:
   SurfelJudge(const Input& input, const Options& o)
@@ -80,11 +80,7 @@ class SurfelJudge {
       sum_db += psnr(static_cast<const ColourImage&>(drawn), static_cast<const ColourImage&>(seen));
     }
     const TriangleMesh mesh = surface_of(map, input_.bounds, options_.voxel_m);
-    const double complete = mesh.empty()
-                                ? 0
-                                : mesh_metrics(mesh, input_.scene->mesh, input_.surface,
-                                               {.threshold_m = options_.threshold_m, .samples = 200'000}, Rng(1))
-                                      .completeness;
+    const double complete = mesh.empty() ? 0 : against_truth(mesh, input_, options_.threshold_m).completeness;
     return {elapsed_s, sum_db / static_cast<double>(views_.size()), complete};
   }
   [[nodiscard]] const std::vector<Score>& scores() const { return scores_; }

@@ -35,6 +35,7 @@
 #include <vantage/loop/mission_state.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/loop/refine_in_flight.hpp>
+#include <vantage/loop/skip_refused.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/maps/field/accumulated.hpp>
 #include <vantage/maps/field/batch.hpp>

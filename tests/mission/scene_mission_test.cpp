@@ -79,6 +79,7 @@ TEST_F(SceneMission, ItsViewsAreARecordingThatReplays) {
   EXPECT_EQ(frame.camera.width, 96);
   EXPECT_FALSE(frame.colour.empty());
   EXPECT_GT(frame.labels.maxCoeff(), 0);
+  EXPECT_NE(text_of(views / "classes.txt").find(" wall\n"), std::string::npos);
 
   const Ended e =
       run("--recording '" + views.string() + "' --method in_order --voxel 0.05" + stopping_after(5) + out("b"));
@@ -90,6 +91,11 @@ TEST_F(SceneMission, ItsViewsAreARecordingThatReplays) {
     return static_cast<double>(read_ply_mesh(folder.path / name / "mesh.ply").triangles.size());
   };
   EXPECT_NEAR(triangles("b") / triangles("a"), 1, 0.1);  // depth was rounded
+
+  // Into the folder that it lies in.
+  ASSERT_EQ(run("--recording '" + views.string() + "' --voxel 0.05" + stopping_after(2) + out("a")).code, 0);
+  EXPECT_EQ(read_recording(views).size(), 5u);
+  EXPECT_EQ(mission("a")["steps"].size(), 2u);
 }
 
 TEST_F(SceneMission, LooksAtObjectsFromAround) {
@@ -97,7 +103,7 @@ TEST_F(SceneMission, LooksAtObjectsFromAround) {
       << "v 0 0 0\nv .5 0 0\nv .5 .3 0\nv 0 .3 0\nv 0 0 .2\nv .5 0 .2\nv .5 .3 .2\nv 0 .3 .2\n"
          "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
   const std::string brick = " '" + (folder.path / "brick.obj").string() + "'";
-  const Ended e = run("--object" + brick + brick + measuring(14) + " --voxel 0.02 --range 20" + out("a"));
+  const Ended e = run("--object" + brick + brick + measuring(14) + " --voxel 0.02" + out("a"));
   ASSERT_EQ(e.code, 0) << e.err;
   EXPECT_GT(mission("a")["steps"][13]["metrics"]["coverage"].get<double>(), 0.8);
   for (const char* picture : {"view_1.png", "view_3.png", "view_13.png", "mesh_1.png"})  // every other of 14
@@ -125,11 +131,20 @@ TEST_F(SceneMission, FusesTheWallsOfARoom) {
   }
 }
 
+TEST_F(SceneMission, LooksLevelFromWhereItIsTold) {
+  std::ofstream(folder.path / "block.obj")  // without a start of its own; seen from inside
+      << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+         "f 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const Ended e = run("--scene '" + (folder.path / "block.obj").string() +
+                      "' --start 0.5 0.5 0.5 --method max_view_distance --body 0.1" + measuring(1) + out("a"));
+  ASSERT_EQ(e.code, 0) << e.err;
+  EXPECT_NEAR(mission("a")["steps"][0]["view"]["forward"][0].get<double>(), 1, 1e-12);
+}
+
 TEST_F(SceneMission, NamesWhatAnObjectLacks) {
   std::ofstream(folder.path / "bare.obj") << "mtllib lost.mtl\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                                              "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
-  const Ended e =
-      run("--no-views --object '" + (folder.path / "bare.obj").string() + "' --range 20" + measuring(1) + out("a"));
+  const Ended e = run("--no-views --object '" + (folder.path / "bare.obj").string() + "'" + measuring(1) + out("a"));
   ASSERT_EQ(e.code, 0) << e.err;
   EXPECT_NE(e.err.find("lost.mtl"), e.err.npos) << e.err;
   EXPECT_FALSE(std::filesystem::exists(folder.path / "a" / "views"));
@@ -153,6 +168,15 @@ TEST_F(SceneMission, BadInputIsOneLineAndCodeTwo) {
   EXPECT_FALSE(std::filesystem::exists(folder.path / "x")) << "nothing was made of bad input";
   std::ofstream(folder.path / "empty.obj") << "v 0 0 0\n";
   refused("--scene '" + (folder.path / "empty.obj").string() + "'", "empty.obj");
+  std::ofstream(folder.path / "nan.obj") << "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n";
+  refused("--scene '" + (folder.path / "nan.obj").string() + "'", "nan.obj");
+  std::ofstream(folder.path / "picture.obj") << "\x89PNG\r\n\x1a\n";
+  refused("--object '" + (folder.path / "picture.obj").string() + "'", "picture.obj");
+  std::filesystem::create_directory(folder.path / "odd");
+  std::ofstream(folder.path / "odd" / "scene.json")
+      << R"({"classes": ["table"], "boxes": [{"min": [0, 0, 0], "max": [1, 1, 1], "class": "chair"}]})";
+  refused("--scene '" + (folder.path / "odd").string() + "'", "unknown class 'chair'");
+  refused("--recording '" + (folder.path / "odd").string() + "'", "odd");
 }
 
 }  // namespace

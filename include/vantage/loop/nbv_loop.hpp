@@ -96,6 +96,10 @@ class NbvLoop {
   /// `departed(map, decision, rng)` (when the robot sets out; this one may train the map, see RefineInFlight),
   /// `measured(map, situation, step)`, `completed(loop, world, clock, state)` (after every measurement: all that is
   /// needed to go on later) and `finished(map, situation, reason)`; the missing ones cost nothing.
+  ///
+  /// A measurement that the map refuses ends the mission with the map's Error, unless an observer has
+  /// `refused(map, situation, error)`, see SkipRefused: then the map stays as it was, the view counts as visited, and
+  /// the mission goes on from there.
   template <class W, class Stop, class C, class... Observers>
   MissionState run(W& world, const View& start, Views first, const Stop& stop, C&& clock, Rng rng,
                    Observers&&... observers) {
@@ -159,13 +163,17 @@ class NbvLoop {
       Rng mapping_rng = state.rng.fork(2 * step + 1);
       const double before_s = clock.elapsed_s();
       clock.begin();
-      map.integrate(*z, mapping_rng);
+      const std::optional<Error> refusal = integrate<Observers...>(*z, mapping_rng);
       clock.mapped();
+      state.here = goal;
       if constexpr (Posed<typename MapT::Measurement>)
-        state.here = z->view;
-      else
-        state.here = goal;
+        if (!refusal) state.here = z->view;
       state.visited.push_back(state.here);
+      if (refusal) {
+        (tell_refused(observers, situation(), *refusal), ...);
+        (tell_completed(observers, world, clock, state), ...);
+        continue;
+      }
       [[maybe_unused]] const Step<typename MapT::Measurement> done{.index = step + 1,
                                                                    .measurement = *z,
                                                                    .plan = plan_made ? &*plan_made : nullptr,
@@ -194,6 +202,28 @@ class NbvLoop {
       };
   }
 
+  template <class O>
+  static constexpr bool hears_refusals = requires(O& o, const MapT& m, const Situation& q, const Error& e) {
+    o.refused(m, q, e);
+  };
+
+  // The Error of a measurement that is refused, if somebody hears of it.
+  template <class... Observers>
+  std::optional<Error> integrate(const typename MapT::Measurement& z, Rng& rng) {
+    if constexpr ((hears_refusals<Observers> || ...)) {
+      try {
+        map.integrate(z, rng);
+      } catch (const Error& e) { return e; }
+    } else {
+      map.integrate(z, rng);
+    }
+    return std::nullopt;
+  }
+
+  template <class O>
+  void tell_refused(O& o, const Situation& q, const Error& e) const {
+    if constexpr (hears_refusals<O>) o.refused(map, q, e);
+  }
   template <class O>
   void tell_started(O& o, const Situation& q) const {
     if constexpr (requires { o.started(map, q); }) o.started(map, q);

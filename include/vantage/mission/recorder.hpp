@@ -71,7 +71,10 @@ class Recorder {
       r.best_utility = step.plan->best_utility;
       r.candidates = step.plan->candidates;
     }
-    if (!with_prior_ && !r.planned) record_.steps.clear();  // the first views together make steps[0]
+    if (!with_prior_ && !r.planned && !record_.steps.empty()) {  // the first views together make steps[0]
+      r.mapping_s += record_.steps.front().mapping_s;
+      record_.steps.clear();
+    }
     add(map, q, std::move(r));
     if (std::chrono::steady_clock::now() - written_ >= write_every_) write();
   }

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include <vantage/loop/clocks.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/loop/refine_in_flight.hpp>
+#include <vantage/loop/skip_refused.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/sampler/pool.hpp>
 #include <vantage/selector/in_order.hpp>
@@ -259,6 +262,75 @@ TEST(NbvLoop, BelievesTheMeasurementAboutWhereItWas) {
   EXPECT_TRUE(same_place(s.here, s.visited.back()));
   EXPECT_EQ(world.followed, (std::vector<std::size_t>{3, 3}));
   EXPECT_EQ(s.travelled_m, 4);
+}
+
+/// Refuses the looks of these measurements, counted from 0.
+struct Fussy : archetype::Map {
+  std::vector<std::size_t> refuses = {};
+  std::size_t asked = 0, taken = 0;
+  void integrate(const archetype::Look& z, Rng& rng) {
+    if (std::find(refuses.begin(), refuses.end(), asked++) != refuses.end()) throw Error("Fussy", "not this one");
+    archetype::Map::integrate(z, rng);
+    ++taken;
+  }
+};
+auto fussy_loop(std::vector<std::size_t> refuses) {
+  Fussy map;
+  map.refuses = std::move(refuses);
+  return NbvLoop{std::move(map), Uninformed{}, archetype::Sampler{}, archetype::Selector{}};
+}
+struct Counting {
+  int measured_ = 0, completed_ = 0;
+  template <class M, class Z>
+  void measured(const M&, const Situation&, const Step<Z>&) {
+    ++measured_;
+  }
+  template <class L, class W, class C>
+  void completed(const L&, const W&, const C&, const MissionState&) {
+    ++completed_;
+  }
+};
+
+TEST(NbvLoop, AMeasurementThatIsRefusedEndsTheMission) {
+  auto loop = fussy_loop({2});
+  archetype::World world;
+  MissionState state{.here = View{}, .rng = Rng{7}};
+  ModelledClock clock;
+  EXPECT_THROW(loop.resume(world, state, {}, Measurements(5), clock), Error);
+  EXPECT_EQ(state.visited.size(), 2u);
+  loop.resume(world, state, {}, Measurements(5), clock);  // the sensor is well again
+  EXPECT_EQ(state.visited.size(), 5u);
+  EXPECT_EQ(loop.map.taken, 5u);
+}
+
+TEST(NbvLoop, OrIsSkippedIfSomebodyHearsOfIt) {
+  auto loop = fussy_loop({1, 3, 4});
+  archetype::World world;
+  std::ostringstream log;
+  SkipRefused skip(log, {.most_in_a_row = 2});
+  Counting counting;
+  const MissionState s =
+      loop.run(world, View{}, Views(three).first(2), Measurements(6), ModelledClock{}, Rng{7}, skip, counting);
+  EXPECT_EQ(s.visited.size(), 6u);
+  EXPECT_EQ(loop.map.taken, 3u);
+  EXPECT_EQ(counting.measured_, 3);
+  EXPECT_EQ(counting.completed_, 6);
+  EXPECT_EQ(skip.total(), 3);
+  EXPECT_EQ(log.str().find("view 2 refused: Fussy: not this one\nview 4 refused"), 0u) << log.str();
+}
+
+TEST(NbvLoop, GivesUpOnASensorThatIsBroken) {
+  auto loop = fussy_loop({1, 2, 3, 4, 5, 6});
+  archetype::World world;
+  std::ostringstream log;
+  SkipRefused skip(log, {.most_in_a_row = 2});
+  EXPECT_THROW(loop.run(world, View{}, {}, Measurements(9), ModelledClock{}, Rng{7}, skip), Error);
+  EXPECT_EQ(skip.total(), 2);
+  EXPECT_EQ(loop.map.asked, 4u);
+  EXPECT_THROW(SkipRefused(log, {.most_in_a_row = -1}), Error);
+
+  auto never = fussy_loop({0});
+  EXPECT_THROW(never.run(world, View{}, {}, Measurements(9), ModelledClock{}, Rng{7}, SkipRefused(log)), Error);
 }
 
 // Policies that break their promises are found out, and the map is as it was.

@@ -79,6 +79,8 @@ TEST(Recorder, WithoutPriorTheFirstViewsMakeStepZero) {
   ASSERT_GE(steps.size(), 3u);
   EXPECT_EQ(steps[0].index, 3u);
   EXPECT_FALSE(steps[0].planned);
+  EXPECT_NEAR(steps[0].mapping_s, steps[0].elapsed_s, 1e-12);  // of all three
+  EXPECT_GT(steps[0].mapping_s, 2.5 * steps[1].mapping_s);
   EXPECT_EQ(steps[1].index, 4u);
   EXPECT_TRUE(steps[1].planned);
 }
