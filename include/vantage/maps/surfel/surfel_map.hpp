@@ -18,15 +18,16 @@
 #include <vantage/core/error.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/frame.hpp>
+#include <vantage/maps/surfel/choose_batch.hpp>
 #include <vantage/maps/surfel/confidence.hpp>
 #include <vantage/maps/surfel/densify.hpp>
-#include <vantage/maps/surfel/frame_history.hpp>
 #include <vantage/maps/surfel/low_confidence.hpp>
 #include <vantage/maps/surfel/pass_pool.hpp>
 #include <vantage/maps/surfel/prune.hpp>
 #include <vantage/maps/surfel/render_surfels.hpp>
 #include <vantage/maps/surfel/surfel_trainer.hpp>
 #include <vantage/maps/surfel/tile_rasteriser.hpp>
+#include <vantage/maps/surfel/training_frame.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
 
 namespace vantage {
