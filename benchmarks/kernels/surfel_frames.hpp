@@ -13,14 +13,12 @@ namespace bench {
 
 inline constexpr int frame_pixels = 512;
 
-/// What a camera in the middle of the room sees of the surfels, in direction k of so many: as a frame.
-inline vantage::Frame surfel_frame(const vantage::Surfels& s, int k, int of) {
+/// What a camera sees of the surfels, as a frame.
+inline vantage::Frame surfel_frame(const vantage::Surfels& s, const vantage::View& view) {
   using namespace vantage;
-  const double heading = 6.2831853 * k / of;
-  const Eigen::Vector3d eye(2.2, 2.4, 1.5);
   Frame f;
   f.camera = Camera::from_fov(frame_pixels, frame_pixels, deg(60));
-  f.view = look_at(eye, eye + Eigen::Vector3d(std::cos(heading), std::sin(heading), 0.8 * std::sin(1.7 * k)));
+  f.view = view;
   TileRasteriser<>::Pass pass;
   Rendering<channel::Colour, channel::Depth> drawn;
   TileRasteriser<>().forward(s, {.view = f.view, .camera = f.camera}, pass, drawn);
@@ -32,6 +30,15 @@ inline vantage::Frame surfel_frame(const vantage::Surfels& s, int k, int of) {
   }
   return f;
 }
+/// The same from the middle of the room, in direction k of so many.
+inline vantage::Frame surfel_frame(const vantage::Surfels& s, int k, int of) {
+  const double heading = 6.2831853 * k / of;
+  const Eigen::Vector3d eye(2.2, 2.4, 1.5), ahead(std::cos(heading), std::sin(heading), 0.8 * std::sin(1.7 * k));
+  return surfel_frame(s, vantage::look_at(eye, eye + ahead));
+}
+
+/// What all of the room lies in.
+inline vantage::Box3 room_bounds() { return {Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(6.1, 5.1, 2.7)}; }
 
 /// A map of about 300 k surfels that has seen so many frames of the room, not trained; made once.
 inline const vantage::SurfelMap<>& map_after(int frames) {
@@ -39,7 +46,7 @@ inline const vantage::SurfelMap<>& map_after(int frames) {
   static std::map<int, SurfelMap<>> made;
   if (const auto it = made.find(frames); it != made.end()) return it->second;
   SurfelMap<>::Config c;
-  c.voxels.bounds = Box3(Eigen::Vector3d(-0.1, -0.1, -0.1), Eigen::Vector3d(6.1, 5.1, 2.7));
+  c.voxels.bounds = room_bounds();
   c.iterations = 0;
   c.prune.every_frames = 1000;
   c.densify.spacing_m = 0.03;  // untrained surfels are spawned again by every frame: about 300 k in the end

@@ -40,7 +40,7 @@ struct Reconstructor {
   template <class Preset, SurfelConfidence Confidence = typename SurfelPreset<Preset>::Confidence>
   [[nodiscard]] ActiveGsMap<Preset, Confidence> map() const {
     using Map = ActiveGsMap<Preset, Confidence>;
-    typename Map::Config c = surfel_config<Map, Preset>(bounds);
+    typename Map::Config c = surfel_config<Map>(bounds);
     c.voxels.voxel_m = voxel_m;
     c.voxels.clearance_m = clearance_m;
     c.voxels.range = {.max_m = range_m, .no_return_m = range_m};

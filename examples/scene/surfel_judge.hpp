@@ -9,36 +9,23 @@
 #include <vector>
 
 #include <vantage/eval/image_metrics.hpp>
-#include <vantage/geometry/marching_cubes.hpp>
-#include <vantage/geometry/mesh_components.hpp>
-#include <vantage/geometry/tsdf.hpp>
 #include <vantage/io/colour_map.hpp>
 #include <vantage/io/picture.hpp>
 #include <vantage/loop/nbv_loop.hpp>
+#include <vantage/maps/surfel/surfel_mesh.hpp>
 #include <vantage/mission/record.hpp>
 #include <vantage/sim/scene_renderer.hpp>
 
-#include "fused_map.hpp"
 #include "input.hpp"
 #include "missions.hpp"
 #include "truth.hpp"
 
 namespace scene {
 
-/// The surface of a surfel map: its depth and colour, rendered where frames were taken, fused.
+/// The surface of a surfel map, with the truncation of our other volumes.
 template <class M>
 TriangleMesh surface_of(const M& map, const Box3& bounds, double voxel_m) {
-  Tsdf volume(around(bounds, voxel_m));
-  Rng unused;
-  for (const auto& taken : map.frames()) {
-    Rendering<channel::Colour, channel::Depth, channel::Opacity> image;
-    map.render(taken.view, taken.camera, image);
-    Frame frame{
-        .camera = taken.camera, .view = taken.view, .colour = image, .depth = std::move(image.depth), .labels = {}};
-    frame.depth = (image.opacity > 0.5F).select(frame.depth, std::numeric_limits<float>::quiet_NaN());
-    if (!frame.depth.isNaN().all()) volume.integrate(frame, unused);
-  }
-  return without_small_components(marching_cubes(volume), 50);
+  return surfel_mesh(map, bounds, {.voxel_m = voxel_m, .truncation_m = 5 * voxel_m});
 }
 
 /// Observer that knows the truth: every so many seconds of mission time, how like the scene the map's renderings are,

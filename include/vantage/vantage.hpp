@@ -60,12 +60,14 @@
 #include <vantage/maps/field/quadrature.hpp>
 #include <vantage/maps/field/regression.hpp>
 #include <vantage/maps/field/separable_basis.hpp>
+#include <vantage/maps/surfel/bilateral_filter.hpp>
+#include <vantage/maps/surfel/choose_batch.hpp>
 #include <vantage/maps/surfel/confidence.hpp>
 #include <vantage/maps/surfel/densify.hpp>
 #include <vantage/maps/surfel/depth_model.hpp>
 #include <vantage/maps/surfel/depth_normals.hpp>
-#include <vantage/maps/surfel/frame_history.hpp>
 #include <vantage/maps/surfel/low_confidence.hpp>
+#include <vantage/maps/surfel/one_per_voxel.hpp>
 #include <vantage/maps/surfel/padded_rows.hpp>
 #include <vantage/maps/surfel/pass_pool.hpp>
 #include <vantage/maps/surfel/projection.hpp>
@@ -89,6 +91,7 @@
 #include <vantage/maps/surfel/tile_pixels.hpp>
 #include <vantage/maps/surfel/tile_rasteriser.hpp>
 #include <vantage/maps/surfel/tile_sweep.hpp>
+#include <vantage/maps/surfel/training_frame.hpp>
 #include <vantage/maps/surfel/visible_splats.hpp>
 #include <vantage/maps/voxel/class_counts.hpp>
 #include <vantage/maps/voxel/clearance.hpp>

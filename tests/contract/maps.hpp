@@ -43,10 +43,12 @@ using OursMap = Ours<>;
 using LatentMap = Ours<preset::thesis, Latent<>>;
 using PublishedVoxels = PresetVoxelMap<preset::reference>;
 using MaternMap = IntegralGp<Matern32>;
+using RayPlaneMap = ActiveGsMap<preset::reference, IncrementalConfidence, TileRasteriser<16, RayPlaneDepth>>;
 
-using Maps = List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap,
-                  OursMap, Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>,
-                  VoxelMap<>, PublishedVoxels, SemanticVoxelMap<5>, ActiveGsMap<>, ActiveGsMap<preset::thesis>>;
+using Maps =
+    List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
+         Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>, VoxelMap<>,
+         PublishedVoxels, SemanticVoxelMap<5>, ActiveGsMap<>, ActiveGsMap<preset::thesis>, RayPlaneMap>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
 /// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
 /// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether

@@ -99,10 +99,16 @@ inline constexpr float splat_thickness_m = 1e-6F;
 /// Surfels as the .ply that viewers of Gaussian splatting read, to the last property: x y z nx ny nz f_dc_0..2
 /// f_rest_0..44 opacity scale_0..2 rot_0..3, all float, little-endian; opacities as logits, scales as logarithms of
 /// metres (the third that of splat_thickness_m), unit quaternions (w, x, y, z), colour as spherical harmonics of degree
-/// 0. The confidence has no place in it. Surfels with a number that is not finite or without a rotation are left out:
-/// no rasteriser draws them, and viewers break on them.
+/// 0. The confidence has no place in it. Surfels with a number that is not finite, be it only as the file has it, or
+/// without a rotation are left out: no rasteriser draws them, and viewers break on them.
 inline std::string encode_splat_ply(const Surfels& surfels) {
-  const std::vector<Surfel> proper = detail::proper_surfels(surfels);
+  const auto harmonic = [](float colour) { return (colour - 0.5F) / splat_colour_unit; };
+  std::vector<Surfel> proper = detail::proper_surfels(surfels);
+  std::erase_if(proper, [&](const Surfel& s) {  // near the largest float a harmonic overflows
+    const auto& p = s.parameter;
+    return !std::isfinite(harmonic(p[surfel::red])) || !std::isfinite(harmonic(p[surfel::green])) ||
+           !std::isfinite(harmonic(p[surfel::blue]));
+  });
   detail::PlyWriter out(PlyFormat::Binary);
   out.element("vertex", proper.size());
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) out.property("float", name);
@@ -119,7 +125,7 @@ inline std::string encode_splat_ply(const Surfels& surfels) {
                                     p[surfel::qz] / length};
     for (const std::size_t k : {surfel::x, surfel::y, surfel::z}) out.put(p[k]);
     out.put(normal_of(q[0], q[1], q[2], q[3]));
-    for (const std::size_t k : {surfel::red, surfel::green, surfel::blue}) out.put((p[k] - 0.5F) / splat_colour_unit);
+    for (const std::size_t k : {surfel::red, surfel::green, surfel::blue}) out.put(harmonic(p[k]));
     for (int k = 0; k < 45; ++k) out.put(0.0F);
     out.put(p[surfel::logit]);
     out.put(p[surfel::log_scale_x]);

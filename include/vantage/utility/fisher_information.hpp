@@ -26,7 +26,8 @@ namespace vantage {
 ///
 /// H is the diagonal of the Fisher information of the map's parameters in the colours rendered; that of the measured
 /// views is summed up once a step, that of views already in a sequence is added. >= 0. Cost: one rendering and one
-/// backward pass a view, measured ones included, and parameters() numbers of memory for each at the same time.
+/// backward pass a view, measured ones included, one view after another. Memory: parameters() numbers for the measured
+/// views, shared, and twice as many for every call: those of the views known, and those of one view.
 class FisherInformation {
  public:
   using MapNeeds = Needs<need::Fisher>;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 
 // Somebody else's program: vantage's map at a size of its own (cells that split 3 x 3), in vantage's loop, with a
-// utility, a sampler and a world of its own.
+// utility, a sampler and a world of its own; and its map of surfaces, with a rasteriser of another kind.
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -47,6 +47,24 @@ struct Slope {
   }
 };
 
+// A wall, 2 m away, in a map of surfels that are drawn in tiles of 8 px, with depths of the surfels' planes.
+bool maps_a_wall() {
+  using Rasteriser = vantage::TileRasteriser<8, vantage::RayPlaneDepth>;
+  using Map = vantage::ActiveGsMap<vantage::preset::reference, vantage::IncrementalConfidence, Rasteriser>;
+  Map map{vantage::surfel_config<Map>(vantage::Box3(Eigen::Vector3d(-1, -1, -1), Eigen::Vector3d(1, 1, 3)))};
+  vantage::Frame frame;
+  frame.camera = vantage::Camera::from_fov(40, 30, 1.0);
+  frame.depth.setConstant(30, 40, 2.0F);
+  for (vantage::Image<float>* plane : {&frame.colour.r, &frame.colour.g, &frame.colour.b})
+    plane->setConstant(30, 40, 0.5F);
+  vantage::Rng rng{1};
+  map.integrate(frame, rng);
+  vantage::Rendering<vantage::channel::Depth> image;
+  map.render(frame.view, frame.camera, image);
+  std::printf("%zu surfels, %.3f m away\n", map.surfels().size(), static_cast<double>(image.depth(15, 20)));
+  return map.surfels().size() > 100 && std::abs(image.depth(15, 20) - 2.0F) < 0.05F;
+}
+
 int main() {
   using Map = vantage::IntegralGp<vantage::SquaredExponential, vantage::CellAverage, vantage::Full<>, vantage::Fixed<>>;
   vantage::NbvLoop loop{Map{{.tree = {.branching = 3, .depth = 2}}}, DoubtFromAbove{}, Somewhere{}, vantage::ArgMax{}};
@@ -61,5 +79,5 @@ int main() {
   loop.run(world, vantage::nadir(10, 10, 1), {}, vantage::Measurements{30}, vantage::ModelledClock{}, vantage::Rng{7});
   std::printf("vantage %s: %zu cells, mean error %.4f before, %.4f after\n", VANTAGE_VERSION, loop.map.size(), before,
               error());
-  return loop.map.size() == 81 && error() < before / 4 ? 0 : 1;
+  return loop.map.size() == 81 && error() < before / 4 && maps_a_wall() ? 0 : 1;
 }

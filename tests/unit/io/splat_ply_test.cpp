@@ -117,6 +117,19 @@ TEST(SurfelPly, WhatCannotBeDrawnIsLeftOut) {
   EXPECT_EQ(decode_surfel_ply(encode_surfel_ply(s), "a").size(), 2U);
 }
 
+// A colour of the largest floats is finite, but not as a spherical harmonic.
+TEST(SplatPly, HasFiniteNumbersOnly) {
+  Surfels s = some(4);
+  s.parameter[surfel::green][1] = 9.7e37F;
+  s.parameter[surfel::blue][2] = -std::numeric_limits<float>::max();
+  s.parameter[surfel::red][3] = 9.5e37F;
+  const Surfels again = decode_splat_ply(encode_splat_ply(s), "a");  // which refuses what is not finite
+  ASSERT_EQ(again.size(), 2U);
+  EXPECT_EQ(position_of(again, 0), position_of(s, 0));
+  EXPECT_EQ(position_of(again, 1), position_of(s, 3));
+  EXPECT_EQ(decode_surfel_ply(encode_surfel_ply(s), "a").size(), 4U);
+}
+
 TEST(SurfelPly, RefusesWhatIsDamaged) {
   const std::string good = encode_surfel_ply(some(3)), splat = encode_splat_ply(some(3));
   for (std::size_t n = 0; n < good.size(); n += 5) EXPECT_THROW(decode_surfel_ply(good.substr(0, n), "a"), Error) << n;

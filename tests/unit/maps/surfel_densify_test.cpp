@@ -14,7 +14,9 @@
 
 #include <vantage/concepts/channels.hpp>
 #include <vantage/core/units.hpp>
+#include <vantage/maps/surfel/bilateral_filter.hpp>
 #include <vantage/maps/surfel/densify.hpp>
+#include <vantage/maps/surfel/depth_normals.hpp>
 
 namespace vantage {
 namespace {

@@ -29,15 +29,15 @@ constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
 static_assert(SurfelRasteriser<TileRasteriser<>> && SurfelConfidence<IncrementalConfidence>);
 
-template <class M, class Preset>
+template <class M>
 M in_small_room() {
-  auto c = surfel_config<M, Preset>(small_room);
+  auto c = surfel_config<M>(small_room);
   c.voxels.voxel_m = 0.1;
   c.voxels.clearance_m = 0.15;
   c.iterations = 3;
   return M(c);
 }
-Published published() { return in_small_room<Published, preset::reference>(); }
+Published published() { return in_small_room<Published>(); }
 template <class M>
 std::vector<std::byte> bytes(const M& map) {
   Sink sink;
@@ -69,11 +69,11 @@ class FurnishedRoom : public testing::Test {
     if (!noisy) config.depth_noise = 0;
     return RgbdCamera(room.scene, config).capture(view(k), Rng(5).fork(static_cast<std::uint64_t>(10 * k)));
   }
-  template <class M, class Preset>
+  template <class M>
   M after(int frames) const {
     Box3 box;
     for (const Eigen::Vector3f& v : room.scene.mesh.vertices) box.extend(v.cast<double>());
-    M map{surfel_config<M, Preset>(box)};
+    M map{surfel_config<M>(box)};
     Rng rng(1);
     for (int k = 0; k < frames; ++k) map.integrate(frame(k), rng);
     return map;
@@ -81,7 +81,7 @@ class FurnishedRoom : public testing::Test {
 };
 
 TEST_F(FurnishedRoom, AViewThatWasNotTrainedOnIsRenderedWell) {
-  Published map = after<Published, preset::reference>(6);
+  Published map = after<Published>(6);
   const auto look = [&] {
     double decibels = 0, depth_m = 0;
     for (const double k : {0.5, 2.5, 4.5}) {
@@ -112,7 +112,7 @@ TEST_F(FurnishedRoom, AViewThatWasNotTrainedOnIsRenderedWell) {
 TEST_F(FurnishedRoom, TheSameBitsWithOneAndTwoThreads) {
   const auto run = [&](int threads) {
     std::vector<std::byte> saved;
-    tbb::task_arena(threads).execute([&] { saved = bytes(after<Published, preset::reference>(2)); });
+    tbb::task_arena(threads).execute([&] { saved = bytes(after<Published>(2)); });
     return saved;
   };
   EXPECT_TRUE(run(1) == run(2));
@@ -120,7 +120,7 @@ TEST_F(FurnishedRoom, TheSameBitsWithOneAndTwoThreads) {
 
 TEST(SurfelMap, TrainsWithTheSlowRasteriserAsWithTheFast) {
   using Slow = ActiveGsMap<preset::reference, IncrementalConfidence, ReferenceRasteriser<double>>;
-  const Slow slow = after(1, in_small_room<Slow, preset::reference>());
+  const Slow slow = after(1, in_small_room<Slow>());
   const Published fast = after(1, published());
   ASSERT_EQ(slow.surfels().size(), fast.surfels().size());
   Rendering<channel::Colour, channel::Opacity> a, b;
@@ -142,7 +142,31 @@ TEST(SurfelMap, BothPresetsLearn) {
     EXPECT_LT(out.uncertainty.mean(), 1);
   };
   check(after(5, published()));
-  check(after(5, in_small_room<Written, preset::thesis>()));
+  check(after(5, in_small_room<Written>()));
+}
+
+// The numbers are those of the types, whatever else a map is made of.
+TEST(SurfelMap, ConfigurationsFollowThePreset) {
+  const auto thesis = [](const auto& c) {
+    EXPECT_FALSE(c.densify.squared_colour_error);
+    EXPECT_EQ(c.densify.most_colour_error, 0.5);
+    EXPECT_FALSE(c.batch.by_error);
+    EXPECT_EQ(c.prune.least_weight, 0.3);
+    EXPECT_EQ(c.prune.least_opacity, 0);
+  };
+  const auto reference = [](const auto& c) {
+    EXPECT_TRUE(c.densify.squared_colour_error);
+    EXPECT_EQ(c.densify.most_colour_error, 0.25);
+    EXPECT_TRUE(c.batch.by_error);
+    EXPECT_EQ(c.prune.least_weight, 0.03);
+    EXPECT_EQ(c.prune.least_opacity, 0.1);
+  };
+  using Slow = ReferenceRasteriser<double>;
+  thesis(surfel_config<Written>(small_room));
+  thesis(surfel_config<ActiveGsMap<preset::thesis, ViewCountConfidence>>(small_room));
+  thesis(surfel_config<ActiveGsMap<preset::thesis, IncrementalConfidence, Slow>>(small_room));
+  reference(surfel_config<ActiveGsMap<>>(small_room));
+  reference(surfel_config<ActiveGsMap<preset::reference, DispersionConfidence, Slow>>(small_room));
 }
 
 TEST(SurfelMap, DrawsWhatTheChannelsMean) {
@@ -248,6 +272,9 @@ TEST(SurfelMap, BadConfigurationsAreNamed) {
   refuses([](auto& c) { c.prune.every_frames = 0; });
   refuses([](auto& c) { c.low_confidence.opacity = 1; });
   refuses([](auto& c) { c.voxels.bounds = Box3(); });
+  const Eigen::Vector3d low = small_room.min(), high = small_room.max();
+  for (const double bad : {low.z(), static_cast<double>(none), std::numeric_limits<double>::infinity()})
+    refuses([&](auto& c) { c.voxels.bounds = Box3(low, Eigen::Vector3d(high.x(), high.y(), bad)); });
 }
 
 TEST(SurfelMap, FisherInformationIsOfWhatIsSeen) {

@@ -247,6 +247,34 @@ TYPED_TEST(SurfelRaster, ThousandsInOneTile) {
   typename TypeParam::Reference{}.forward(s, view, reference_pass, theirs);
   EXPECT_EQ(pass.visible(), 5000U);
   expect_same(ours, theirs);
+  const ImageGradient d = any_gradient(view.camera, 9);
+  SurfelGradient g, gg;
+  typename TypeParam::Rasteriser{}.backward(s, view, pass, d, g);
+  typename TypeParam::Reference{}.backward(s, view, reference_pass, d, gg);
+  for (std::size_t p = 0; p < surfel::parameters; ++p) {
+    double largest = 0;
+    for (const float v : gg.parameter[p]) largest = std::max(largest, std::abs(static_cast<double>(v)));
+    std::size_t off = 0;  // those whose alpha is within a rounding of 1/255
+    for (std::size_t i = 0; i < s.size(); ++i)
+      if (!(std::abs(g.parameter[p][i] - gg.parameter[p][i]) <= 1e-3 * largest)) ++off;
+    EXPECT_LE(off, 3U) << p;
+  }
+}
+
+// That backward, after forward, gives finite numbers: one a surfel and parameter, and six of the pose.
+template <class Raster>
+void expect_finite_gradients(const Raster& raster, const Surfels& s, const RasterView& view,
+                             typename Raster::Pass& pass) {
+  SurfelGradient g;
+  PoseGradient pose = PoseGradient::Zero();
+  raster.backward(s, view, pass, any_gradient(view.camera, 10), g, pose);
+  EXPECT_TRUE(pose.allFinite()) << pose;
+  EXPECT_EQ(g.is_touched.size(), s.size());
+  EXPECT_EQ(g.touched.size(), pass.visible());
+  for (const auto& values : g.parameter) {
+    EXPECT_EQ(values.size(), s.size());
+    for (const float v : values) EXPECT_TRUE(std::isfinite(v));
+  }
 }
 
 TYPED_TEST(SurfelRaster, Edges) {
@@ -267,6 +295,7 @@ TYPED_TEST(SurfelRaster, Edges) {
     s.scale.max_m = std::numeric_limits<float>::infinity();
     s.push_back(one);
     raster.forward(s, v, pass, out);
+    expect_finite_gradients(raster, s, v, pass);
     return out.opacity.maxCoeff();
   };
   EXPECT_EQ(draw(facing(-1, 0, 3), view), 0);              // behind
@@ -278,6 +307,8 @@ TYPED_TEST(SurfelRaster, Edges) {
   Surfel grazing = facing(1, 2, 3);
   grazing.parameter[surfel::qw] = grazing.parameter[surfel::qx] = 1;
   EXPECT_EQ(draw(grazing, view), 0);
+  grazing.parameter[surfel::qw] = 0.7F, grazing.parameter[surfel::qx] = 0.7141F;  // 1.1 degrees from its plane
+  EXPECT_GT(draw(grazing, view), 0);
   EXPECT_GT(draw(facing(1, 1, 3), straight(1, 1)), 0.5F);
   view.front_only = true;
   EXPECT_GT(draw(facing(1, 0, 3), view), 0.3F);

@@ -11,8 +11,9 @@
 #include <vector>
 
 #include <vantage/core/units.hpp>
-#include <vantage/maps/surfel/frame_history.hpp>
+#include <vantage/maps/surfel/choose_batch.hpp>
 #include <vantage/maps/surfel/surfel_adam.hpp>
+#include <vantage/maps/surfel/training_frame.hpp>
 
 namespace vantage {
 namespace {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +15,9 @@
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/image.hpp>
+#include <vantage/maps/surfel/bilateral_filter.hpp>
 #include <vantage/maps/surfel/depth_normals.hpp>
+#include <vantage/maps/surfel/one_per_voxel.hpp>
 #include <vantage/maps/surfel/surfel_normal.hpp>
 #include <vantage/maps/surfel/surfels.hpp>
 
@@ -46,52 +47,6 @@ struct DensifyConfig {
     filter.validate();
   }
 };
-
-namespace detail {
-
-/// One random point a voxel: of those in the same voxel the one with the least of their random numbers stays.
-class OnePerVoxel {
- public:
-  /// For at most n points.
-  OnePerVoxel(std::size_t n, double edge_m) : edge_m_(edge_m), slots_(std::bit_ceil(2 * n + 1)) {}
-
-  /// Points within 2^20 voxels of the origin; `number` is below 2^32 - 1.
-  void add(const Eigen::Vector3d& point, std::uint32_t number, std::uint64_t random) {
-    const Eigen::Array3d at = (point.array() / edge_m_).floor();
-    std::uint64_t key = 0;
-    for (int a = 0; a < 3; ++a)
-      key = key << 21 | (static_cast<std::uint64_t>(static_cast<std::int64_t>(at[a]) + (1 << 20)) & 0x1FFFFF);
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t s = hash(key) & mask;; s = (s + 1) & mask) {
-      Slot& slot = slots_[s];
-      if (slot.number != none && slot.key != key) continue;
-      // Ties go to the lower number, so that the order of points does not count.
-      if (slot.number == none || random < slot.random || (random == slot.random && number < slot.number))
-        slot = {key, random, number};
-      return;
-    }
-  }
-  /// Marks those that stay, by number.
-  void mark(std::vector<std::uint8_t>& stays) const {
-    for (const Slot& s : slots_)
-      if (s.number != none) stays[s.number] = 1;
-  }
-
- private:
-  static constexpr std::uint32_t none = ~std::uint32_t{0};
-  struct Slot {
-    std::uint64_t key = 0, random = 0;
-    std::uint32_t number = none;
-  };
-  static std::size_t hash(std::uint64_t key) {
-    key *= 0x9E3779B97F4A7C15u;
-    return static_cast<std::size_t>(key ^ key >> 29);
-  }
-  double edge_m_;
-  std::vector<Slot> slots_;
-};
-
-}  // namespace detail
 
 /// Whether a pixel wants a new surfel (eq. 6.4): colour c rendered and c* measured, depth d and d*, opacity o. A depth
 /// of NaN (nothing rendered) is not behind anything.
@@ -132,7 +87,7 @@ std::size_t densify(Surfels& surfels, const Frame& frame, const Drawn& drawn, co
   });
   std::size_t candidates = 0;
   for (const std::uint8_t w : wanted) candidates += w;
-  detail::OnePerVoxel voxels(candidates, config.spacing_m);
+  OnePerVoxel voxels(candidates, config.spacing_m);
   const double most_m = config.spacing_m * (1 << 20);
   const auto point_of = [&](std::size_t i) -> Eigen::Vector3d {
     return frame.view.T_W_C * Eigen::Vector3d(static_cast<double>(frame.depth.data()[i]) * ray_of(i));

@@ -9,8 +9,7 @@
 
 namespace vantage {
 
-/// What a model of depth depends on: the surfel's centre over its depth, its normal (camera frame), its depth [m] and
-/// the focal lengths [px].
+/// What a model of depth depends on: the surfel's centre over its depth, its normal (camera frame) and its depth [m].
 template <class T>
 struct DepthInput {
   std::array<T, 3> centre;  ///< (px/pz, py/pz, 1)

@@ -18,15 +18,16 @@
 #include <vantage/core/error.hpp>
 #include <vantage/core/rng.hpp>
 #include <vantage/geometry/frame.hpp>
+#include <vantage/maps/surfel/choose_batch.hpp>
 #include <vantage/maps/surfel/confidence.hpp>
 #include <vantage/maps/surfel/densify.hpp>
-#include <vantage/maps/surfel/frame_history.hpp>
 #include <vantage/maps/surfel/low_confidence.hpp>
 #include <vantage/maps/surfel/pass_pool.hpp>
 #include <vantage/maps/surfel/prune.hpp>
 #include <vantage/maps/surfel/render_surfels.hpp>
 #include <vantage/maps/surfel/surfel_trainer.hpp>
 #include <vantage/maps/surfel/tile_rasteriser.hpp>
+#include <vantage/maps/surfel/training_frame.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
 
 namespace vantage {
@@ -39,9 +40,11 @@ namespace vantage {
 ///
 /// Models UncertainMap (1 - confidence), renders Colour, Depth, Opacity, Normal, Confidence and Uncertainty; by its
 /// voxels NavigableMap, CoverageMap and RegionMap<frontier>; RegionMap<low_confidence>, FisherMap, RefinableMap,
-/// ForetellsRefusal and Persistent. Memory: 76 bytes a surfel and 4 more a number of Confidence, 104 while it is
-/// trained, 7 a pixel of every frame, and the voxels. Const members may run concurrently; every member uses all
-/// threads, and its result does not depend on their number.
+/// ForetellsRefusal and Persistent. Memory: 56 bytes a surfel and 4 more a number of Confidence, which is 76 for
+/// IncrementalConfidence, 84 for DispersionConfidence; once it was trained 161 more (Adam's two moments 104, the
+/// gradient 57); 7 a pixel of every frame; the voxels; and the rasteriser's passes, one for each that ran at once,
+/// which grow with the surfels in sight. Const members may run concurrently; every member uses all threads, and its
+/// result does not depend on their number.
 template <SurfelRasteriser Rasteriser = TileRasteriser<>, SurfelConfidence Confidence = IncrementalConfidence,
           class Variation = EdgeAwareVariation, NavigableMap Voxels = PresetVoxelMap<preset::reference>>
 class SurfelMap {

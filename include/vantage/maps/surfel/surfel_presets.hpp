@@ -47,12 +47,27 @@ template <class Preset = DefaultSurfelPreset, SurfelConfidence Confidence = type
           SurfelRasteriser Rasteriser = TileRasteriser<>>
 using ActiveGsMap = SurfelMap<Rasteriser, Confidence, typename SurfelPreset<Preset>::Variation, PresetVoxelMap<Preset>>;
 
-/// A surfel map's configuration with a preset's values: voxels of 20 cm and a sensor that sees 5 m.
+/// The preset that a surfel map's types are of, so that its numbers are of no other. A map that mixes types has none;
+/// specialise this for one of your own.
+template <class M>
+struct PresetOfSurfels;
+template <SurfelRasteriser Rasteriser, SurfelConfidence Confidence>
+struct PresetOfSurfels<
+    SurfelMap<Rasteriser, Confidence, SurfelPreset<preset::thesis>::Variation, PresetVoxelMap<preset::thesis>>> {
+  using type = preset::thesis;
+};
+template <SurfelRasteriser Rasteriser, SurfelConfidence Confidence>
+struct PresetOfSurfels<
+    SurfelMap<Rasteriser, Confidence, SurfelPreset<preset::reference>::Variation, PresetVoxelMap<preset::reference>>> {
+  using type = preset::reference;
+};
+
+/// A surfel map's configuration with its preset's values: voxels of 20 cm and a sensor that sees 5 m.
 ///
 ///     ActiveGsMap<> map{surfel_config<ActiveGsMap<>>(box)};
-template <class M, class Preset = DefaultSurfelPreset>
+template <class M>
 typename M::Config surfel_config(const Box3& bounds) {
-  constexpr SurfelPreset<Preset> p{};
+  constexpr SurfelPreset<typename PresetOfSurfels<M>::type> p{};
   typename M::Config c;
   c.voxels.bounds = bounds;
   c.voxels.range.max_m = c.far_m;

@@ -6,11 +6,12 @@
 
 #include <vantage/concepts/channels.hpp>
 #include <vantage/core/rng.hpp>
-#include <vantage/maps/surfel/frame_history.hpp>
+#include <vantage/maps/surfel/choose_batch.hpp>
 #include <vantage/maps/surfel/rasteriser.hpp>
 #include <vantage/maps/surfel/surfel_adam.hpp>
 #include <vantage/maps/surfel/surfel_loss.hpp>
 #include <vantage/maps/surfel/surfels.hpp>
+#include <vantage/maps/surfel/training_frame.hpp>
 
 namespace vantage {
 

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include <vantage/core/error.hpp>
 #include <vantage/core/parallel.hpp>
 #include <vantage/maps/surfel/raster_images.hpp>
 #include <vantage/maps/surfel/splat_chain.hpp>
