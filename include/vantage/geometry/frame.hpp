@@ -29,7 +29,7 @@ struct Frame {
 };
 
 inline void Frame::validate(std::string_view where) const {
-  camera.validate();
+  camera.validate(where);
   check_view(view, where);
   const auto sized = [&](const auto& image, std::string_view name) {
     if (image.size() != 0 && (image.rows() != camera.height || image.cols() != camera.width))

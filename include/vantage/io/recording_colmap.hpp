@@ -42,9 +42,7 @@ inline std::map<long, Camera> parse_colmap_cameras(std::string_view text, const 
                         lines.number(at),
                         lines.number(at + 1),
                         lines.number(at + 2)};
-    try {
-      camera.validate();
-    } catch (const Error& e) { lines.refuse(e.what(), "a pinhole camera"); }
+    camera.validate(lines.where());
     if (!out.emplace(id, camera).second) lines.refuse(concat("a second camera ", id), "one line a camera");
   }
   return out;

@@ -64,7 +64,7 @@ inline std::pair<Camera, std::optional<double>> parse_camera(std::string_view te
     return static_cast<int>(px);
   };
   camera = {side(*width, "width"), side(*height, "height"), *fx, *fy, *cx, *cy};
-  camera.validate();
+  camera.validate(where);
   if (depth_unit_m && !(*depth_unit_m > 0)) throw Error(where, concat("depth_unit_m ", *depth_unit_m), "> 0");
   return {camera, depth_unit_m};
 }
@@ -174,7 +174,7 @@ inline Recording read_replica_recording(const std::filesystem::path& folder) {
   const auto side = [&](const char* name) { return static_cast<int>(json.at(name).count(1 << 16)); };
   const auto value = [&](const char* name) { return json.at(name).number(); };
   const Camera camera{side("w"), side("h"), value("fx"), value("fy"), value("cx") + 0.5, value("cy") + 0.5};
-  camera.validate();
+  camera.validate(camera_file.string());
   const std::vector<View> poses = parse_poses(read_file(poses_file, WordLimits{}.bytes), poses_file.string());
   const auto colour = detail::pictures(folder / "results", "frame"),
              depth = detail::pictures(folder / "results", "depth");

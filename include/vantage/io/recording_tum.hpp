@@ -88,7 +88,7 @@ inline Camera parse_tum_calibration(std::string_view text, const std::string& wh
   if (!lines.next()) throw Error(where, "the file is empty", "fx fy cx cy");
   if (lines.size() != 4) lines.refuse(concat(lines.size(), " numbers"), "fx fy cx cy: a pinhole without distortion");
   const Camera camera{width, height, lines.number(0), lines.number(1), lines.number(2) + 0.5, lines.number(3) + 0.5};
-  camera.validate();
+  camera.validate(lines.where());
   return camera;
 }
 

@@ -133,7 +133,7 @@ TEST_F(FolderRecording, NamesWhatIsWrong) {
   put("camera.txt", "width 2.5\nheight 2\nfx 1\nfy 1\ncx 1\ncy 1\n");
   refused({"camera.txt", "width 2.5"});
   put("camera.txt", "width 2\nheight 2\nfx -1\nfy 1\ncx 1\ncy 1\n");
-  refused({"fx = -1"});
+  refused({"camera.txt", "fx = -1"});
   fs::remove(root / "camera.txt");
   refused({"camera.txt", "no such file"});
 }
@@ -199,6 +199,8 @@ TEST_F(TumRecording, CalibrationCountsFromThePixelsCentre) {
   EXPECT_EQ(r.frames()[0].camera.cy, 0.75);
   put("calibration.txt", "517.3 516.5 0.5 0.25 0.1 0.2\n");
   refused({"calibration.txt:1", "distortion"});
+  put("calibration.txt", "0 516.5 0.5 0.25\n");
+  refused({"calibration.txt:1", "fx = 0"});
 }
 
 TEST_F(TumRecording, AcceptsAnotherCameraUnitAndReach) {
@@ -364,7 +366,7 @@ TEST_F(ColmapRecording, NamesWhatIsWrong) {
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 3 3 1\n");
   refused({"cameras.txt:1", "7 words"});
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 0 3 1 1\n");
-  refused({"cameras.txt:1", "fx"});
+  refused({"cameras.txt:1", "fx = 0"});
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 3 3 1 1\n1 PINHOLE 2 2 3 3 1 1\n");
   refused({"cameras.txt:2", "second camera 1"});
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 3 3 1 1\n");
@@ -423,7 +425,7 @@ TEST_F(RecordingTest, ARecordingIsCheckedWhenMade) {
   refuses([&] { return Recording("test", {bad}); }, {"frame 0", "neither"});
   bad = frame;
   bad.camera.fx = 0;
-  EXPECT_THROW(Recording("test", {bad}), Error);
+  refuses([&] { return Recording("test", {frame, bad}); }, {"test (frame 1)", "fx = 0"});
 }
 
 }  // namespace
