@@ -3,13 +3,13 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -113,14 +113,14 @@ inline bool natural_less(const std::string& a, const std::string& b) {
 /// The pictures of a folder whose names start with `prefix`, in natural order; none if there is no such folder.
 inline std::vector<std::filesystem::path> pictures(const std::filesystem::path& folder, std::string_view prefix = "") {
   std::vector<std::filesystem::path> out;
-  if (!std::filesystem::is_directory(folder)) return out;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    std::string extension = entry.path().extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const bool picture = extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" ||
-                         extension == ".ppm";
-    if (picture && entry.path().filename().string().starts_with(prefix)) out.push_back(entry.path());
+  if (!folder_exists(folder)) return out;
+  std::error_code failed;
+  for (std::filesystem::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed)) {
+    const std::string kind = extension_of(at->path());
+    const bool picture = kind == "png" || kind == "jpg" || kind == "jpeg" || kind == "pgm" || kind == "ppm";
+    if (picture && at->path().filename().string().starts_with(prefix)) out.push_back(at->path());
   }
+  if (failed) throw Error(folder.string(), concat("cannot be listed: ", failed.message()));
   std::sort(out.begin(), out.end(),
             [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
   return out;
@@ -168,7 +168,7 @@ inline Recording read_folder_recording(const std::filesystem::path& folder) {
 /// depth pictures hold `scale` at 1 m. Throws Error naming the file (and line) that is missing or wrong.
 inline Recording read_replica_recording(const std::filesystem::path& folder) {
   const std::filesystem::path above = folder / ".." / "cam_params.json", poses_file = folder / "traj.txt";
-  const std::filesystem::path camera_file = std::filesystem::exists(above) ? above : folder / "cam_params.json";
+  const std::filesystem::path camera_file = file_exists(above) ? above : folder / "cam_params.json";
   const nlohmann::json parsed = read_json(camera_file);
   const JsonItem json = JsonItem(parsed, camera_file.string()).at("camera");
   const auto side = [&](const char* name) { return static_cast<int>(json.at(name).count(1 << 16)); };

@@ -111,7 +111,7 @@ inline Recording read_tum_recording(const std::filesystem::path& folder, const T
     camera = *config.camera;
   } else {
     const auto [width, height] = picture_size(folder / colour.front().value);
-    if (std::filesystem::exists(folder / "calibration.txt")) {
+    if (file_exists(folder / "calibration.txt")) {
       camera = parse_tum_calibration(text("calibration.txt"), (folder / "calibration.txt").string(), width, height);
     } else {
       camera = {width, height, 525, 525, 0.5 * width, 0.5 * height};

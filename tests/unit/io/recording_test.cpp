@@ -409,6 +409,25 @@ TEST_F(RecordingTest, SaysWhatARecordingIs) {
   refuses([&] { return read_recording(root / "file.txt"); }, {"file.txt", "no recording"});
 }
 
+TEST_F(RecordingTest, NamesThatNoFileCanHaveAreErrorsLikeOthers) {
+  const fs::path long_name = root / std::string(5000, 'x');
+  refuses([&] { return read_recording(long_name); }, {"xxx: no such file or folder"});
+  refuses([&] { return read_recording(long_name.string() + ".json"); }, {".json: no such file or folder"});
+  refuses([&] { return read_recording(long_name / "below"); }, {"below: no such file or folder"});
+  refuses([&] { return read_folder_recording(long_name); }, {"camera.txt"});
+  refuses([&] { return read_tum_recording(long_name); }, {"rgb.txt"});
+  refuses([&] { return read_replica_recording(long_name); }, {"cam_params.json"});
+  refuses([&] { return read_colmap_recording(long_name, root); }, {"cameras.txt"});
+  // Nor is a folder the file that tells a recording's kind.
+  fs::create_directories(root / "poses.txt");
+  refused({"no recording"});
+}
+
+TEST_F(RecordingTest, KnowsAJsonFileByItsNameInAnyCase) {
+  put("A.JSON", "{}");
+  refuses([&] { return read_recording(root / "A.JSON"); }, {"A.JSON", "frames"});
+}
+
 TEST_F(RecordingTest, ARecordingIsCheckedWhenMade) {
   put("a.ppm", colour(1));
   RecordedFrame frame;
