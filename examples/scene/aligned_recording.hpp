@@ -34,7 +34,7 @@ inline Recording read_posed(const std::filesystem::path& folder, double range_m)
     throw Error(folder.string(), "no first pose, or no depth_unit_m",
                 "one pose in first_pose.txt, and the unit in camera.txt");
   std::vector<RecordedFrame> frames;
-  for (const std::filesystem::path& depth : vantage::detail::pictures(folder / "depth"))
+  for (const std::filesystem::path& depth : pictures(folder / "depth"))
     frames.push_back({.view = poses[0], .camera = camera, .colour = {}, .depth = depth, .labels = {}});
   const Recording unposed(folder.string(), frames, *unit_m);
   const auto surface = [&](std::size_t i, const View& view) {

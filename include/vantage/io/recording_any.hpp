@@ -8,6 +8,7 @@
 #include <vantage/io/recording.hpp>
 #include <vantage/io/recording_colmap.hpp>
 #include <vantage/io/recording_folder.hpp>
+#include <vantage/io/recording_replica.hpp>
 #include <vantage/io/recording_transforms.hpp>
 #include <vantage/io/recording_tum.hpp>
 

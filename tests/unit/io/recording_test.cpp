@@ -402,6 +402,28 @@ TEST_F(RecordingTest, ReadsReplica) {
   EXPECT_FLOAT_EQ(r.frame(1).depth(0, 0), 2.0F);
 }
 
+TEST_F(RecordingTest, AReplicaCameraNamesWhatIsWrong) {
+  const auto with = [](std::string_view w, std::string_view fx, std::string_view scale) {
+    return parse_replica_camera(concat(R"({"camera": {"w": )", w, R"(, "h": 3, "fx": )", fx,
+                                       R"(, "fy": 5, "cx": 1.5, "cy": 1, "scale": )", scale, "}}"),
+                                "cam.json");
+  };
+  const auto [camera, depth_unit_m] = with("4", "6", "500");
+  EXPECT_EQ(camera.width, 4);
+  EXPECT_EQ(camera.height, 3);
+  EXPECT_EQ(camera.fx, 6);
+  EXPECT_EQ(camera.fy, 5);
+  EXPECT_EQ(camera.cx, 2);
+  EXPECT_EQ(camera.cy, 1.5);
+  EXPECT_EQ(depth_unit_m, 0.002);
+  refuses([&] { return with("4", "-6", "500"); }, {"cam.json", "fx = -6"});
+  refuses([&] { return with("0", "6", "500"); }, {"cam.json", "width = 0"});
+  refuses([&] { return with("4.5", "6", "500"); }, {"cam.json: /camera/w", "4.5"});
+  refuses([&] { return with("4", "\"6\"", "500"); }, {"cam.json: /camera/fx", "string"});
+  refuses([&] { return with("4", "6", "0"); }, {"cam.json: /camera/scale", "0"});
+  refuses([] { return parse_replica_camera("{}", "cam.json"); }, {"cam.json", "'camera'"});
+}
+
 TEST_F(RecordingTest, SaysWhatARecordingIs) {
   refused({root.string(), "transforms.json", "poses.txt", "TUM", "COLMAP"});
   refuses([&] { return read_recording(root / "nothing"); }, {"nothing", "no such"});

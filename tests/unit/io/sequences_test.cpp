@@ -137,7 +137,7 @@ class RealCastle : public Castle {
 TEST_F(RealCastle, AlignmentFindsThePosesThatWereNotRecorded) {
   const auto [camera, unit_m] = parse_camera(read_file(root / "camera.txt", 4096), "camera.txt");
   const auto poses = parse_poses(read_file(root / "first_pose.txt", 4096), "first_pose.txt");
-  const auto files = detail::pictures(root / "depth");
+  const auto files = pictures(root / "depth");
   ASSERT_EQ(poses.size(), 1U);
   ASSERT_EQ(files.size(), 30U);
   const auto castle = [&files, c = camera, u = unit_m](std::size_t i) -> Image<float> {
