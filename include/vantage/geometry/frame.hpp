@@ -59,4 +59,11 @@ inline void Frame::validate(std::string_view where) const {
        [](float d) { return (d != d) | ((d > 0) & (d <= std::numeric_limits<float>::max())); });
 }
 
+/// The frame without the depth beyond `range_m` (camera z): a sensor that saw no farther. O(pixels).
+inline Frame within(Frame frame, double range_m) {
+  const auto most = static_cast<float>(range_m);
+  frame.depth = (frame.depth <= most).select(frame.depth, std::numeric_limits<float>::quiet_NaN());
+  return frame;
+}
+
 }  // namespace vantage
