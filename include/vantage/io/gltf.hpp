@@ -110,6 +110,7 @@ class GltfReader {
     if (number(16) != 0x4E4F534A) throw Error(where_, "no JSON chunk at byte 12", "JSON first");
     take_json(parse_json(bytes_.substr(20, text), where_ + ", JSON chunk", json));
   }
+  /// Where textures are looked up is read from the text itself: a number that is none is refused with the way to it.
   void take_json(const nlohmann::json& json) {
     const JsonItem root(json, where_);
     check_views(root);
@@ -271,11 +272,17 @@ class GltfReader {
         throw Error(where_, concat("vertex ", i, " of '", printable(loaded_.parts[part]), "' is (", v.transpose(), ")"),
                     "finite coordinates");
       scene.mesh.vertices.push_back(v);
-      if (colour)
-        scene.mesh.colours.emplace_back(encoded(colour->number(i, 0)), encoded(colour->number(i, 1)),
-                                        encoded(colour->number(i, 2)));
-      else if (!scene.mesh.colours.empty())
+      if (colour) {
+        const Eigen::Vector3f linear(colour->number(i, 0), colour->number(i, 1), colour->number(i, 2));
+        if (!linear.allFinite())
+          throw Error(
+              where_,
+              concat("vertex ", i, " of '", printable(loaded_.parts[part]), "' has a colour that is not finite"),
+              "in [0, 1]");
+        scene.mesh.colours.emplace_back(encoded(linear[0]), encoded(linear[1]), encoded(linear[2]));
+      } else if (!scene.mesh.colours.empty()) {
         scene.mesh.colours.emplace_back(Eigen::Vector3f::Ones());
+      }
     }
     const bool mirrored = to_world.topLeftCorner<3, 3>().determinant() < 0;
     const auto corner = [&](std::size_t k) {
