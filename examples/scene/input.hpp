@@ -14,12 +14,13 @@
 #include <vantage/eval/reachable_space.hpp>
 #include <vantage/eval/surface_coverage.hpp>
 #include <vantage/geometry/mesh_sampling.hpp>
+#include <vantage/io/recording_aligned.hpp>
+#include <vantage/io/recording_any.hpp>
 #include <vantage/io/scene_file.hpp>
 #include <vantage/sim/object_scene.hpp>
 #include <vantage/sim/ray_scene.hpp>
 #include <vantage/sim/room.hpp>
 
-#include "aligned_recording.hpp"
 #include "options.hpp"
 
 namespace scene {
@@ -147,7 +148,9 @@ inline Input load(const Options& o) {
       input.note += concat(input.note.empty() ? "" : " ", note, note.ends_with('.') ? "" : ".");
   };
   if (!o.recording.empty()) {
-    input.recording = read_posed(o.recording, o.range_m);
+    input.recording = has_first_pose_only(o.recording)
+                          ? read_aligned_recording(o.recording, {.range_m = o.range_m}).recording
+                          : read_recording(o.recording);
     input.name = title_of(o.recording);
     input.note = concat("A recording of ", input.recording->size(), " frames.");
     add(input.recording->notes());

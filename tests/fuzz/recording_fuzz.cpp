@@ -10,6 +10,7 @@
 
 #include <vantage/io/recording_colmap.hpp>
 #include <vantage/io/recording_folder.hpp>
+#include <vantage/io/recording_replica.hpp>
 #include <vantage/io/recording_transforms.hpp>
 #include <vantage/io/recording_tum.hpp>
 
@@ -62,6 +63,11 @@ void read(char kind, std::string_view text) {
       return;
     case 'f':
       return vantage::parse_camera(text, "text").first.validate();
+    case 'r': {
+      const auto [camera, depth_unit_m] = vantage::parse_replica_camera(text, "text");
+      require(std::isfinite(depth_unit_m) && depth_unit_m > 0);
+      return camera.validate();
+    }
     case 'p':
       for (const auto& view : vantage::parse_poses(text, "text")) require_rigid(view);
       return;

@@ -27,8 +27,8 @@ struct MeshMetrics {
   double accuracy_m = 0;      ///< mean distance from the estimate's points to the true surface
   double completeness_m = 0;  ///< mean distance from the true points to the estimated surface
   double precision = 0;       ///< share of the estimate's points within the threshold of the true surface
-  double completeness =
-      0;          ///< share of the true points within the threshold of the estimate: completeness ratio, recall
+  /// Share of the true points within the threshold of the estimate: completeness ratio, recall.
+  double completeness = 0;
   double f1 = 0;  ///< harmonic mean of precision and completeness; 0 if one of them is
 };
 

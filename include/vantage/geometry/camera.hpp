@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include <vantage/core/error.hpp>
 
@@ -24,9 +25,9 @@ struct Camera {
     camera.validate();
     return camera;
   }
-  /// Throws Error naming every bad member.
-  void validate() const {
-    Check check("Camera");
+  /// Throws Error naming `where`, such as the file that tells of the camera, and every bad member.
+  void validate(std::string_view where = "Camera") const {
+    Check check(where);
     check(width > 0 && width <= 1 << 16, "width", width, "1 to 65536 px");
     check(height > 0 && height <= 1 << 16, "height", height, "1 to 65536 px");
     check.positive("fx", fx);

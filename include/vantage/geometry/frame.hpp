@@ -29,7 +29,7 @@ struct Frame {
 };
 
 inline void Frame::validate(std::string_view where) const {
-  camera.validate();
+  camera.validate(where);
   check_view(view, where);
   const auto sized = [&](const auto& image, std::string_view name) {
     if (image.size() != 0 && (image.rows() != camera.height || image.cols() != camera.width))
@@ -57,6 +57,13 @@ inline void Frame::validate(std::string_view where) const {
     each(*plane, "colour", "in [0, 1]", [](float c) { return (c >= 0) & (c <= 1); });
   each(depth, "depth", "finite and > 0 m, or NaN = no value",
        [](float d) { return (d != d) | ((d > 0) & (d <= std::numeric_limits<float>::max())); });
+}
+
+/// The frame without the depth beyond `range_m` (camera z): a sensor that saw no farther. O(pixels).
+inline Frame within(Frame frame, double range_m) {
+  const auto most = static_cast<float>(range_m);
+  frame.depth = (frame.depth <= most).select(frame.depth, std::numeric_limits<float>::quiet_NaN());
+  return frame;
 }
 
 }  // namespace vantage

@@ -36,8 +36,8 @@ struct TriangleMesh {
     for (const Eigen::Vector3f& v : vertices) box.extend(v.cast<double>());
     return box;
   }
-  /// Throws Error naming the first vertex that is not finite, the first triangle whose vertex does not exist, or
-  /// colours that are not one a vertex. O(vertices + triangles).
+  /// Throws Error naming the first vertex that is not finite, the first triangle whose vertex does not exist, the first
+  /// vertex whose colour is not in [0, 1], or colours that are not one a vertex. O(vertices + triangles).
   void validate(std::string_view where) const {
     for (std::size_t i = 0; i < vertices.size(); ++i)
       if (!vertices[i].allFinite())
@@ -49,6 +49,9 @@ struct TriangleMesh {
     if (!colours.empty() && colours.size() != vertices.size())
       throw Error(where, concat(colours.size(), " colours"),
                   concat("none, or one for each of ", vertices.size(), " vertices"));
+    for (std::size_t i = 0; i < colours.size(); ++i)
+      if (!(colours[i].array() >= 0).all() || !(colours[i].array() <= 1).all())  // also NaN
+        throw Error(where, concat("vertex ", i, " has colour (", colours[i].transpose(), ")"), "in [0, 1]");
   }
 };
 

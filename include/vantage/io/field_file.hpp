@@ -33,7 +33,7 @@ namespace detail {
 class Units {
  public:
   explicit Units(const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) return;
+    if (!file_exists(file)) return;
     const std::string text = read_file(file, std::size_t{1} << 20);
     json_ = nlohmann::json::parse(text, nullptr, false);
     if (json_.is_discarded())

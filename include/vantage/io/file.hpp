@@ -4,6 +4,8 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstddef>
 #include <cstdio>
@@ -23,6 +25,20 @@ namespace vantage {
 inline bool file_exists(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(path, ignored);
+}
+
+/// Whether there is a folder of this name; a name that no folder can have is none.
+inline bool folder_exists(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+/// The kind of a file by its name: "obj" of "a/b.OBJ"; "" if it has none.
+inline std::string extension_of(const std::filesystem::path& path) {
+  std::string e = path.extension().string();
+  if (!e.empty()) e.erase(0, 1);
+  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return e;
 }
 
 /// The whole of a regular file. Throws Error if it cannot be read or is larger than `most_bytes`, before anything of

@@ -23,14 +23,16 @@
 #include <vantage/geometry/scene.hpp>
 #include <vantage/io/file.hpp>
 #include <vantage/io/gltf_accessor.hpp>
+#include <vantage/io/gltf_texture_place.hpp>
 #include <vantage/io/json.hpp>
 #include <vantage/io/loaded_scene.hpp>
 #include <vantage/io/printable.hpp>
 
 namespace vantage {
 
-/// Reads the triangles of glTF 2.0: nodes with their transforms, base colours and their textures, vertex colours. glTF
-/// is y up: the scene is turned to z up. A part is a node. Colours, which glTF keeps linear, become display-encoded.
+/// Reads the triangles of glTF 2.0: nodes with their transforms, base colours and their textures (where
+/// KHR_texture_transform puts them), vertex colours. glTF is y up: the scene is turned to z up. A part is a node.
+/// Colours, which glTF keeps linear, become display-encoded.
 class GltfReader {
  public:
   GltfReader(std::string_view bytes, std::string where, const SceneLimits& limits)
@@ -43,7 +45,7 @@ class GltfReader {
     for (const std::string& needed : model_.extensionsRequired)
       if (needed != "KHR_mesh_quantization" && needed != "KHR_materials_unlit" && needed != "KHR_texture_transform")
         throw Error(where_, concat("the extension '", printable(needed), "' is required"),
-                    "none but KHR_mesh_quantization, KHR_materials_unlit");
+                    "none but KHR_mesh_quantization, KHR_materials_unlit, KHR_texture_transform");
     make_materials();
     std::vector<int> roots;
     const int scene = model_.defaultScene >= 0 ? model_.defaultScene : 0;
@@ -85,14 +87,14 @@ class GltfReader {
   }
   /// tinygltf recurses into JSON, and hands on pictures of a buffer without a look at the buffer's size: its text is
   /// bounded here, and what views promise is compared with what buffers have.
-  void check_container(bool binary) const {
+  void check_container(bool binary) {
     const JsonLimits json{.bytes = limits_.bytes};
     if (bytes_.size() > 0x7FFFFFFF) throw Error(where_, concat(bytes_.size(), " bytes"), "less than 2 GB");
     if (!binary) {
       const std::size_t first = bytes_.find_first_not_of(" \t\r\n");
       if (first == bytes_.npos || bytes_[first] != '{')
         throw Error(where_, "no glTF file", "JSON, or a file that begins with 'glTF'");
-      return check_views(parse_json(bytes_, where_, json));
+      return take_json(parse_json(bytes_, where_, json));
     }
     const auto number = [&](std::size_t at) {
       if (at + 4 > bytes_.size())
@@ -106,10 +108,20 @@ class GltfReader {
     if (length > bytes_.size() || text + 20 > bytes_.size())
       throw Error(where_, concat("ends at byte ", bytes_.size()), concat(std::max(length, text + 20), " bytes"));
     if (number(16) != 0x4E4F534A) throw Error(where_, "no JSON chunk at byte 12", "JSON first");
-    check_views(parse_json(bytes_.substr(20, text), where_ + ", JSON chunk", json));
+    take_json(parse_json(bytes_.substr(20, text), where_ + ", JSON chunk", json));
   }
-  void check_views(const nlohmann::json& json) const {
+  /// Where textures are looked up is read from the text itself: a number that is none is refused with the way to it.
+  void take_json(const nlohmann::json& json) {
     const JsonItem root(json, where_);
+    check_views(root);
+    if (const auto materials = root.find("materials"))
+      materials->each([&](const JsonItem& material) {
+        const auto model = material.find("pbrMetallicRoughness");
+        const auto info = model ? model->find("baseColorTexture") : std::optional<JsonItem>();
+        places_.push_back(info ? GltfTexturePlace(*info) : GltfTexturePlace());
+      });
+  }
+  static void check_views(const JsonItem& root) {
     const auto views = root.find("bufferViews"), buffers = root.find("buffers");
     if (!views) return;
     views->each([&](const JsonItem& view) {
@@ -145,6 +157,8 @@ class GltfReader {
     return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
   }
   void make_materials() {
+    // As many, whatever tinygltf made of the text.
+    places_.resize(model_.materials.size());
     Scene& scene = loaded_.scene;  // materials[0] is the default, which glTF wants white
     scene.materials[0].colour.setOnes();
     for (std::size_t i = 0; i < model_.materials.size(); ++i) {
@@ -159,7 +173,6 @@ class GltfReader {
       }
       if (m.alphaMode == "BLEND") loaded_.note(concat(where_, ": transparent materials are opaque"));
       material.texture = texture(m.pbrMetallicRoughness.baseColorTexture.index);
-      texture_set_.push_back(m.pbrMetallicRoughness.baseColorTexture.texCoord);
       scene.materials.push_back(std::move(material));
     }
   }
@@ -235,8 +248,8 @@ class GltfReader {
     if (!position) return loaded_.note(concat(where_, ": a primitive without positions is left out"));
     if (p.material >= 0 && static_cast<std::size_t>(p.material) >= model_.materials.size())
       throw Error(where_, concat("material ", p.material), concat("below ", model_.materials.size()));
-    const int set = p.material >= 0 ? texture_set_[static_cast<std::size_t>(p.material)] : 0;
-    const auto uv = attribute(concat("TEXCOORD_", set), 2), colour = attribute("COLOR_0", 3);
+    const GltfTexturePlace place = p.material >= 0 ? places_[static_cast<std::size_t>(p.material)] : GltfTexturePlace();
+    const auto uv = attribute(concat("TEXCOORD_", place.set), 2), colour = attribute("COLOR_0", 3);
     for (const auto* other : {&uv, &colour})
       if (*other && (*other)->size() < position->size())
         throw Error(where_, concat((*other)->size(), " values of an attribute for ", position->size(), " vertices"),
@@ -259,11 +272,17 @@ class GltfReader {
         throw Error(where_, concat("vertex ", i, " of '", printable(loaded_.parts[part]), "' is (", v.transpose(), ")"),
                     "finite coordinates");
       scene.mesh.vertices.push_back(v);
-      if (colour)
-        scene.mesh.colours.emplace_back(encoded(colour->number(i, 0)), encoded(colour->number(i, 1)),
-                                        encoded(colour->number(i, 2)));
-      else if (!scene.mesh.colours.empty())
+      if (colour) {
+        const Eigen::Vector3f linear(colour->number(i, 0), colour->number(i, 1), colour->number(i, 2));
+        if (!linear.allFinite())
+          throw Error(
+              where_,
+              concat("vertex ", i, " of '", printable(loaded_.parts[part]), "' has a colour that is not finite"),
+              "in [0, 1]");
+        scene.mesh.colours.emplace_back(encoded(linear[0]), encoded(linear[1]), encoded(linear[2]));
+      } else if (!scene.mesh.colours.empty()) {
         scene.mesh.colours.emplace_back(Eigen::Vector3f::Ones());
+      }
     }
     const bool mirrored = to_world.topLeftCorner<3, 3>().determinant() < 0;
     const auto corner = [&](std::size_t k) {
@@ -287,7 +306,8 @@ class GltfReader {
       if (!uv) continue;
       for (std::size_t k = 0; k < 3; ++k) {
         Eigen::Vector2f& c = scene.uv.back()[k];
-        c = {uv->number(v[k], 0), 1 - uv->number(v[k], 1)};  // glTF: v = 0 is the top
+        c = place({uv->number(v[k], 0), uv->number(v[k], 1)}).cast<float>();
+        c.y() = 1 - c.y();  // glTF: v = 0 is the top
         if (!c.allFinite())
           throw Error(where_, concat("vertex ", v[k], " has texture coordinates that are not finite"),
                       "finite numbers");
@@ -302,7 +322,7 @@ class GltfReader {
   tinygltf::Model model_;
   std::string complaint_;
   std::vector<bool> seen_;
-  std::vector<int> texture_set_;
+  std::vector<GltfTexturePlace> places_;  // of each material's texture
   std::unordered_map<std::string, std::uint32_t> part_;
   TextureLoader textures_{limits_};
   LoadedScene loaded_;

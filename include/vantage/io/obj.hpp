@@ -33,7 +33,7 @@ namespace vantage {
 /// of a file without objects.
 class ObjReader {
  public:
-  /// The text of an MTL file that the OBJ names, or none.
+  /// The text of an MTL file that the OBJ names, or none; a name may have a folder.
   using Library = std::function<std::optional<std::string>(const std::string& name)>;
 
   ObjReader(std::string_view text, std::string where, SceneLimits limits)
@@ -42,7 +42,7 @@ class ObjReader {
     reserve(text);
   }
 
-  /// `folder`: what textures are relative to.
+  /// `folder`: where the OBJ lies; MTL files are relative to it, and textures to their MTL file.
   LoadedScene read(const Library& library, const std::filesystem::path& folder) && {
     for (std::string_view key = lines_.next(); !key.empty(); key = lines_.next()) {
       if (key == "v")
@@ -186,10 +186,16 @@ class ObjReader {
     const std::string name(lines_.rest());
     if (!libraries_.insert(name).second) return;
     const std::optional<std::string> text = library(name);
-    if (text)
-      known_.merge(parse_mtl(*text, name));
-    else
-      loaded_.note(concat(lines_.where(), ": there is no '", printable(name), "'; its materials are grey"));
+    if (!text)
+      return loaded_.note(concat(lines_.where(), ": there is no '", printable(name), "'; its materials are grey"));
+    const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+    std::map<std::string, MtlMaterial> materials = parse_mtl(*text, name);
+    for (auto& [material, known] : materials) {
+      std::string& file = known.texture;
+      std::replace(file.begin(), file.end(), '\\', '/');
+      if (!file.empty()) file = (folder / file).string();
+    }
+    known_.merge(materials);
   }
   void make_materials(const std::filesystem::path& folder) {
     TextureLoader textures(limits_);
@@ -198,9 +204,8 @@ class ObjReader {
       const auto known = known_.find(name);
       if (known != known_.end()) {
         material.colour = bounded(known->second.colour, "colours of materials");
-        std::string file = known->second.texture;
-        std::replace(file.begin(), file.end(), '\\', '/');
-        if (!file.empty()) material.texture = textures.from_file(folder / file);
+        if (const std::string& file = known->second.texture; !file.empty())
+          material.texture = textures.from_file(folder / file);
         if (known->second.transparent) loaded_.note(concat(lines_.where(), ": transparent materials are opaque"));
       } else if (!name.empty() && !known_.empty()) {
         loaded_.note(concat(lines_.where(), ": no material '", printable(name), "'; it is grey"));

@@ -11,7 +11,6 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <vantage/core/error.hpp>
 #include <vantage/geometry/image.hpp>
@@ -213,26 +212,6 @@ inline Picture read_picture(const std::filesystem::path& path, const PictureLimi
 }
 inline Image<std::uint16_t> read_grey_16(const std::filesystem::path& path, const PictureLimits& limits = {}) {
   return decode_grey_16(read_file(path, limits.bytes), path.string(), limits);
-}
-
-/// JPEG bytes of a picture; quality 1 to 100. The same picture gives the same bytes.
-inline std::vector<std::byte> encode_jpeg(const Picture& picture, int quality = 90) {
-  Check check("encode_jpeg");
-  check(quality >= 1 && quality <= 100, "quality", quality, "1 to 100");
-  check.done();
-  std::vector<std::byte> bytes;
-  const auto append = [](void* to, void* data, int size) {
-    auto& out = *static_cast<std::vector<std::byte>*>(to);
-    out.insert(out.end(), static_cast<const std::byte*>(data), static_cast<const std::byte*>(data) + size);
-  };
-  if (!stbi_write_jpg_to_func(append, &bytes, picture.width(), picture.height(), 3, picture.data(), quality))
-    throw Error("encode_jpeg", "the picture cannot be written");
-  return bytes;
-}
-
-/// Writes a JPEG file, whole or not at all.
-inline void write_jpeg(const std::filesystem::path& path, const Picture& picture, int quality = 90) {
-  write_file(path, encode_jpeg(picture, quality));
 }
 
 }  // namespace vantage

@@ -45,7 +45,7 @@ class Recording {
       const RecordedFrame& f = frames_[i];
       const std::string name = concat(where_, " (frame ", i, ")");
       check_view(f.view, name);
-      f.camera.validate();
+      f.camera.validate(name);
       if (f.colour.empty() && f.depth.empty()) throw Error(name, "neither colour nor depth", "a picture");
       for (const std::filesystem::path* file : {&f.colour, &f.depth, &f.labels})
         if (std::error_code e; !file->empty() && !std::filesystem::is_regular_file(*file, e))

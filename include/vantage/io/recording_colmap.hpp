@@ -42,9 +42,7 @@ inline std::map<long, Camera> parse_colmap_cameras(std::string_view text, const 
                         lines.number(at),
                         lines.number(at + 1),
                         lines.number(at + 2)};
-    try {
-      camera.validate();
-    } catch (const Error& e) { lines.refuse(e.what(), "a pinhole camera"); }
+    camera.validate(lines.where());
     if (!out.emplace(id, camera).second) lines.refuse(concat("a second camera ", id), "one line a camera");
   }
   return out;
@@ -74,7 +72,7 @@ inline std::vector<ColmapImage> parse_colmap_images(std::string_view text, const
 /// Reads a COLMAP text model; `model` holds cameras.txt and images.txt, `images` the pictures. Throws Error naming the
 /// file (and line) that is missing or wrong.
 inline Recording read_colmap_recording(const std::filesystem::path& model, const std::filesystem::path& images) {
-  if (!std::filesystem::exists(model / "cameras.txt") && std::filesystem::exists(model / "cameras.bin"))
+  if (!file_exists(model / "cameras.txt") && file_exists(model / "cameras.bin"))
     throw Error(model.string(), "this COLMAP model is binary",
                 "text: colmap model_converter --input_path DIR --output_path DIR --output_type TXT");
   const std::filesystem::path cameras_file = model / "cameras.txt", images_file = model / "images.txt";

@@ -3,7 +3,6 @@
 #pragma once
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -15,7 +14,7 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/io/file.hpp>
-#include <vantage/io/json.hpp>
+#include <vantage/io/picture_list.hpp>
 #include <vantage/io/printable.hpp>
 #include <vantage/io/recording.hpp>
 #include <vantage/io/word_lines.hpp>
@@ -30,8 +29,7 @@
 //     depth/        16-bit PNG or PGM, camera z in depth_unit_m; 0 = no value
 //     labels/       8- or 16-bit PNG or PGM, class numbers; 0 = unknown
 //
-// One of colour/ and depth/ must be there. Replica's trajectories as NICE-SLAM (Zhu et al., CVPR 2022) rendered them
-// are nearly that, and are read, too: traj.txt, results/frame*.jpg, results/depth*.png, and cam_params.json above.
+// One of colour/ and depth/ must be there.
 namespace vantage {
 
 /// The camera of a camera.txt, and its depth_unit_m if told. Throws Error naming the line, or all that is missing.
@@ -64,7 +62,7 @@ inline std::pair<Camera, std::optional<double>> parse_camera(std::string_view te
     return static_cast<int>(px);
   };
   camera = {side(*width, "width"), side(*height, "height"), *fx, *fy, *cx, *cy};
-  camera.validate();
+  camera.validate(where);
   if (depth_unit_m && !(*depth_unit_m > 0)) throw Error(where, concat("depth_unit_m ", *depth_unit_m), "> 0");
   return {camera, depth_unit_m};
 }
@@ -85,55 +83,14 @@ inline std::vector<View> parse_poses(std::string_view text, const std::string& w
 
 namespace detail {
 
-/// Whether name a comes before b; runs of digits compare as numbers.
-inline bool natural_less(const std::string& a, const std::string& b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (digit(a[i]) && digit(b[j])) {
-      while (i < a.size() && a[i] == '0') ++i;
-      while (j < b.size() && b[j] == '0') ++j;
-      std::size_t m = i, n = j;
-      while (m < a.size() && digit(a[m])) ++m;
-      while (n < b.size() && digit(b[n])) ++n;
-      if (m - i != n - j) return m - i < n - j;
-      if (const int order = a.compare(i, m - i, b, j, n - j); order != 0) return order < 0;
-      i = m;
-      j = n;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i;
-      ++j;
-    }
-  }
-  return a.size() - i != b.size() - j ? a.size() - i < b.size() - j : a < b;
-}
-
-/// The pictures of a folder whose names start with `prefix`, in natural order; none if there is no such folder.
-inline std::vector<std::filesystem::path> pictures(const std::filesystem::path& folder, std::string_view prefix = "") {
-  std::vector<std::filesystem::path> out;
-  if (!std::filesystem::is_directory(folder)) return out;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    std::string extension = entry.path().extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    const bool picture = extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".pgm" ||
-                         extension == ".ppm";
-    if (picture && entry.path().filename().string().starts_with(prefix)) out.push_back(entry.path());
-  }
-  std::sort(out.begin(), out.end(),
-            [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
-  return out;
-}
-
 /// Frames of poses and as many pictures of each channel that there is.
 inline std::vector<RecordedFrame> frames(const std::filesystem::path& poses_file, const std::vector<View>& poses,
                                          const Camera& camera, const std::vector<std::filesystem::path>& colour,
                                          const std::vector<std::filesystem::path>& depth,
                                          const std::vector<std::filesystem::path>& labels) {
-  const auto check = [&](std::size_t pictures, const char* channel) {
-    if (pictures != 0 && pictures != poses.size())
-      throw Error(poses_file.string(), concat(poses.size(), " poses for ", pictures, " pictures of ", channel),
+  const auto check = [&](std::size_t n, const char* channel) {
+    if (n != 0 && n != poses.size())
+      throw Error(poses_file.string(), concat(poses.size(), " poses for ", n, " pictures of ", channel),
                   "as many: one a frame");
   };
   check(colour.size(), "colour");
@@ -157,29 +114,11 @@ inline Recording read_folder_recording(const std::filesystem::path& folder) {
   const std::filesystem::path camera_file = folder / "camera.txt", poses_file = folder / "poses.txt";
   const auto [camera, depth_unit_m] = parse_camera(read_file(camera_file, WordLimits{}.bytes), camera_file.string());
   const std::vector<View> poses = parse_poses(read_file(poses_file, WordLimits{}.bytes), poses_file.string());
-  const auto colour = detail::pictures(folder / "colour"), depth = detail::pictures(folder / "depth"),
-             labels = detail::pictures(folder / "labels");
+  const auto colour = pictures(folder / "colour"), depth = pictures(folder / "depth"),
+             labels = pictures(folder / "labels");
   if (colour.empty() && depth.empty()) throw Error(folder.string(), "no pictures in colour/ or depth/", "one a pose");
   if (!depth.empty() && !depth_unit_m) throw Error(camera_file.string(), "no value of depth_unit_m", "for depth/ [m]");
   return {folder.string(), detail::frames(poses_file, poses, camera, colour, depth, labels), depth_unit_m.value_or(1)};
-}
-
-/// Reads a scene of NICE-SLAM's Replica. Its principal point counts from the centre of the top left pixel, and its
-/// depth pictures hold `scale` at 1 m. Throws Error naming the file (and line) that is missing or wrong.
-inline Recording read_replica_recording(const std::filesystem::path& folder) {
-  const std::filesystem::path above = folder / ".." / "cam_params.json", poses_file = folder / "traj.txt";
-  const std::filesystem::path camera_file = std::filesystem::exists(above) ? above : folder / "cam_params.json";
-  const nlohmann::json parsed = read_json(camera_file);
-  const JsonItem json = JsonItem(parsed, camera_file.string()).at("camera");
-  const auto side = [&](const char* name) { return static_cast<int>(json.at(name).count(1 << 16)); };
-  const auto value = [&](const char* name) { return json.at(name).number(); };
-  const Camera camera{side("w"), side("h"), value("fx"), value("fy"), value("cx") + 0.5, value("cy") + 0.5};
-  camera.validate();
-  const std::vector<View> poses = parse_poses(read_file(poses_file, WordLimits{}.bytes), poses_file.string());
-  const auto colour = detail::pictures(folder / "results", "frame"),
-             depth = detail::pictures(folder / "results", "depth");
-  return {folder.string(), detail::frames(poses_file, poses, camera, colour, depth, {}),
-          1 / json.at("scale").number(1e-6, 1e12)};
 }
 
 }  // namespace vantage

@@ -88,7 +88,7 @@ inline Camera parse_tum_calibration(std::string_view text, const std::string& wh
   if (!lines.next()) throw Error(where, "the file is empty", "fx fy cx cy");
   if (lines.size() != 4) lines.refuse(concat(lines.size(), " numbers"), "fx fy cx cy: a pinhole without distortion");
   const Camera camera{width, height, lines.number(0), lines.number(1), lines.number(2) + 0.5, lines.number(3) + 0.5};
-  camera.validate();
+  camera.validate(lines.where());
   return camera;
 }
 
@@ -111,7 +111,7 @@ inline Recording read_tum_recording(const std::filesystem::path& folder, const T
     camera = *config.camera;
   } else {
     const auto [width, height] = picture_size(folder / colour.front().value);
-    if (std::filesystem::exists(folder / "calibration.txt")) {
+    if (file_exists(folder / "calibration.txt")) {
       camera = parse_tum_calibration(text("calibration.txt"), (folder / "calibration.txt").string(), width, height);
     } else {
       camera = {width, height, 525, 525, 0.5 * width, 0.5 * height};

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -13,6 +11,7 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/geometry/scene.hpp>
+#include <vantage/io/file.hpp>
 #include <vantage/io/gltf.hpp>
 #include <vantage/io/json.hpp>
 #include <vantage/io/loaded_scene.hpp>
@@ -22,14 +21,6 @@
 #include <vantage/io/scene_json.hpp>
 
 namespace vantage {
-
-/// The kind of a file by its name: "obj" of "a/b.OBJ"; "" if it has none.
-inline std::string extension_of(const std::filesystem::path& path) {
-  std::string e = path.extension().string();
-  if (!e.empty()) e.erase(0, 1);
-  std::transform(e.begin(), e.end(), e.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return e;
-}
 
 /// Reads a mesh with its materials and textures: OBJ, glTF (.gltf, .glb) or PLY, by its name's end. Throws Error.
 inline LoadedScene read_mesh_scene(const std::filesystem::path& path, const SceneLimits& limits = {}) {
@@ -52,8 +43,7 @@ inline LoadedScene read_mesh_scene(const std::filesystem::path& path, const Scen
 inline Scene read_scene(const std::filesystem::path& path, const SceneLimits& limits = {}) {
   namespace fs = std::filesystem;
   fs::path description = path;
-  std::error_code none;
-  if (fs::is_directory(path, none)) {
+  if (folder_exists(path)) {
     description = path / "scene.json";
     if (!file_exists(description)) description = path / "object.json";
     if (!file_exists(description))

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdlib>
 
-// stb_image with its PNG and JPEG decoders only, and stb_image_write, each private to the source that includes it. A
-// program that uses them itself does so in another source.
-#if defined(STBI_INCLUDE_STB_IMAGE_H) || defined(INCLUDE_STB_IMAGE_WRITE_H)
+// stb_image with its PNG and JPEG decoders only, private to the source that includes it. A program that uses it itself
+// does so in another source.
+#if defined(STBI_INCLUDE_STB_IMAGE_H)
 #error "vantage compiles stb_image with limits of its own: include vantage first, or stb_image in another source"
 #endif
 
@@ -46,9 +46,4 @@ inline void* stb_reallocate(void* old, std::size_t size) {
 #if defined(__clang__)
 #pragma clang attribute pop
 #endif
-#define STBI_WRITE_NO_STDIO
-#define STB_IMAGE_WRITE_STATIC
-#define STB_IMAGE_WRITE_IMPLEMENTATION
-#include <stb/stb_image_write.h>
 #undef STB_IMAGE_IMPLEMENTATION
-#undef STB_IMAGE_WRITE_IMPLEMENTATION

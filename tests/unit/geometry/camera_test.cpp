@@ -31,6 +31,7 @@ TEST(Camera, NamesEveryBadMember) {
     for (const char* name : {"width", "height", "fx", "fy"})
       EXPECT_NE(std::string(e.what()).find(name), std::string::npos) << name;
     EXPECT_EQ(std::string(e.what()).find("cx"), std::string::npos);
+    EXPECT_EQ(std::string(e.what()).find("Camera: "), 0U);
   }
   for (const double angle : {0.0, -1.0, std::numbers::pi, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_THROW(Camera::from_fov(10, 10, angle), Error) << angle;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <vantage/geometry/frame.hpp>
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -56,6 +57,22 @@ TEST(Frame, NamesTheFirstBadPixelWhereverItIs) {
       EXPECT_NE(refusal(f).find(place), std::string::npos) << refusal(f);
     }
   }
+}
+
+TEST(Frame, WithinARangeNothingBeyondHasDepth) {
+  Frame f = frame();
+  f.depth(1, 2) = 1.5F;
+  f.depth(3, 4) = nan;
+  f.depth(5, 6) = 3;
+  const Frame near = within(f, 2);
+  EXPECT_EQ(near.depth(0, 0), 2);
+  EXPECT_EQ(near.depth(1, 2), 1.5F);
+  EXPECT_TRUE(std::isnan(near.depth(3, 4)));
+  EXPECT_TRUE(std::isnan(near.depth(5, 6)));
+  EXPECT_EQ(near.colour.r(5, 6), 0.5F);
+  EXPECT_EQ(refusal(near), "");
+  f.depth.resize(0, 0);
+  EXPECT_EQ(within(f, 2).depth.size(), 0);
 }
 
 }  // namespace

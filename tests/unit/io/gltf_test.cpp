@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: MIT
 #include <vantage/io/gltf.hpp>
 
+#include <array>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include <vantage/io/picture.hpp>
+#include <vantage/io/png.hpp>
 #include <vantage/io/scene_file.hpp>
 #include <vantage/io/write_glb.hpp>
 #include <vantage/io/write_obj.hpp>
@@ -64,6 +67,13 @@ TEST(Gltf, RefusesWhatDoesNotFit) {
   EXPECT_REFUSED(read(with("\"POSITION\":0", "\"POSITION\":7")), "accessor 7: there is none");
   EXPECT_REFUSED(read(with("AAAAAAABAAIA", "AAAAAAABAAcA")), "a triangle uses vertex 7; expected below 3");
   EXPECT_REFUSED(read(with("AACAPwAA", "AADAfwAA")), "vertex 1 of 'part' is (");
+  const std::string not_a_number =
+      with("\"POSITION\":0", "\"POSITION\":0,\"COLOR_0\":2",
+           with("\"SCALAR\"}", "\"SCALAR\"},{\"bufferView\":2,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}",
+                with("\"byteLength\":6}", "\"byteLength\":6},{\"buffer\":1,\"byteLength\":36}",
+                     with("AAABAAIA\"}", R"(AAABAAIA"},{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+                                         R"(AACAPwAAgD8AAIA/AAAAAAAAwH8AAAAAAAAAAAAAAAAAAAAA"})"))));
+  EXPECT_REFUSED(read(not_a_number), "vertex 1 of 'part' has a colour that is not finite; expected in [0, 1]");
   EXPECT_REFUSED(read(triangle(",\"children\":[0]")), "node 0 has two parents");
   EXPECT_REFUSED(read(triangle(",\"children\":[9]")), "node 9; expected below 1");
   EXPECT_REFUSED(read(triangle(",\"rotation\":[0,0,0,0]")), "a rotation of 0");
@@ -90,6 +100,54 @@ TEST(Gltf, ReplacesAMissingPictureByTheColour) {
   EXPECT_TRUE(s.materials[s.material[0]].colour.isApprox(Eigen::Vector3f(1, 0, 128 / 255.0F), 1e-3F))
       << "display-encoded";
   s.validate("a");
+}
+
+// The texture coordinates of the triangle's corners, of which set `set` is the x and y of their positions, as a base
+// colour texture with this KHR_texture_transform has them.
+std::array<Eigen::Vector2f, 3> placed(const std::string& transform, const std::string& set = "TEXCOORD_0") {
+  const test::TemporaryFolder folder;
+  write_png(folder.path() / "a.png", Picture(1, 1));
+  std::string text =
+      triangle("", R"(,"extensionsUsed":["KHR_texture_transform"],"extensionsRequired":["KHR_texture_transform"],)"
+                   R"("materials":[{"pbrMetallicRoughness":{"baseColorTexture":{"index":0,"extensions":{)"
+                   R"("KHR_texture_transform":{)" +
+                       transform + R"(}}}}}],"textures":[{"source":0}],"images":[{"uri":"a.png"}])");
+  text.replace(text.find("\"POSITION\":0"), 12, "\"POSITION\":0,\"" + set + "\":0");
+  text.replace(text.find("\"indices\":1"), 11, "\"indices\":1,\"material\":0");
+  const Scene s = GltfReader(text, "a.gltf", {}).read(folder.path()).scene;
+  s.validate("a");
+  return s.uv.at(0);
+}
+
+TEST(Gltf, TexturesAreScaledTurnedAndMoved) {
+  using Corners = std::array<Eigen::Vector2f, 3>;
+  const auto expect = [](const Corners& found, const Corners& expected) {
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT((found[k] - expected[k]).norm(), 1e-6F) << "corner " << k << ": " << found[k].transpose();
+  };
+  // (0, 0), (1, 0) and (0, 1) with v down become ours, with v up.
+  expect(placed(""), {Eigen::Vector2f(0, 1), Eigen::Vector2f(1, 1), Eigen::Vector2f(0, 0)});
+  expect(placed(R"("offset":[0.25,0.5],"scale":[0.5,2])"),
+         {Eigen::Vector2f(0.25F, 0.5F), Eigen::Vector2f(0.75F, 0.5F), Eigen::Vector2f(0.25F, -1.5F)});
+  // The extension's own example: the lower left quadrant, turned clockwise by 90 degrees: what is on top in it is on
+  // the right of the square. In the picture, v down: (0, 1), (0, 0.5), (0.5, 1).
+  expect(placed(R"("offset":[0,1],"rotation":1.5707963267948966,"scale":[0.5,0.5])"),
+         {Eigen::Vector2f(0, 0), Eigen::Vector2f(0, 0.5F), Eigen::Vector2f(0.5F, 0)});
+  // The scale comes first: u is halved and then turned.
+  expect(placed(R"("rotation":1.5707963267948966,"scale":[0.5,1])"),
+         {Eigen::Vector2f(0, 1), Eigen::Vector2f(0, 1.5F), Eigen::Vector2f(1, 1)});
+  expect(placed(R"("texCoord":1)", "TEXCOORD_1"),
+         {Eigen::Vector2f(0, 1), Eigen::Vector2f(1, 1), Eigen::Vector2f(0, 0)});
+}
+
+TEST(Gltf, RefusesTextureTransformsThatAreNone) {
+  const std::string way = "/materials/0/pbrMetallicRoughness/baseColorTexture/extensions/KHR_texture_transform";
+  EXPECT_REFUSED(placed(R"("scale":[1])"), way + "/scale: 1 elements; expected 2 numbers");
+  EXPECT_REFUSED(placed(R"("offset":[0,"x"])"), way + "/offset/1: a value of kind string");
+  EXPECT_REFUSED(placed(R"("rotation":null,"texCoord":-1)"), way + "/texCoord: -1");
+  EXPECT_REFUSED(placed(R"("rotation":[1])"), way + "/rotation: a value of kind array");
+  EXPECT_REFUSED(placed(R"("offset":[1e999,0])"), "a number that is out of range");
+  EXPECT_REFUSED(placed(R"("offset":[1e39,0])"), "vertex 0 has texture coordinates that are not finite");
 }
 
 TriangleMesh coloured() {

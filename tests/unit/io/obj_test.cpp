@@ -96,6 +96,26 @@ TEST(Obj, ReadsTexturesAndReplacesWhatIsMissing) {
   EXPECT_EQ(plain.notes[0], "a.obj: there is no 'x.mtl'; its materials are grey");
 }
 
+TEST(Obj, TexturesAreRelativeToTheirMtlFile) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "looks" / "tex");
+  write_png(folder.path() / "looks" / "tex" / "a.png", Picture(3, 2, {10, 20, 30}));
+  write_png(folder.path() / "b.png", Picture(1, 1, {40, 50, 60}));
+  folder.put("looks/m.mtl", "newmtl one\nmap_Kd tex\\a.png\nnewmtl two\nmap_Kd ../b.png\n");
+  folder.put("n.mtl", "newmtl three\nmap_Kd looks/tex/a.png\n");
+  const auto path = folder.put("m.obj",
+                               "mtllib looks/m.mtl\nmtllib n.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\n"
+                               "usemtl one\nf 1/1 2/1 3/1\nusemtl two\nf 1/1 2/1 3/1\nusemtl three\nf 1/1 2/1 3/1\n");
+  const Scene s = read_obj(path).scene;
+  EXPECT_TRUE(s.notes.empty());
+  ASSERT_EQ(s.textures.size(), 2u) << "a picture that two materials share is one texture";
+  EXPECT_EQ(s.textures[0].rgb[5], (Rgb{10, 20, 30}));
+  EXPECT_EQ(s.textures[1].rgb[0], (Rgb{40, 50, 60}));
+  EXPECT_EQ(s.materials[0].texture, 0u);
+  EXPECT_EQ(s.materials[1].texture, 1u);
+  EXPECT_EQ(s.materials[2].texture, 0u);
+}
+
 TEST(Obj, ManyNotesEndInOne) {
   std::string text = "mtllib m\nmtllib m\n" + std::string(square);
   for (int i = 0; i < 1000; ++i) text += concat("usemtl m", i, "\nf 1 2 3\n");

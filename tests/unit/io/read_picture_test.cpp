@@ -9,6 +9,7 @@
 
 #include <vantage/core/rng.hpp>
 #include <vantage/io/png.hpp>
+#include <vantage/io/write_jpeg.hpp>
 
 #include "message_of.hpp"
 #include "temporary_folder.hpp"

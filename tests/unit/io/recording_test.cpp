@@ -3,15 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <analytic_scene.hpp>
 #include <temporary_folder.hpp>
 
 #include <vantage/core/units.hpp>
+#include <vantage/io/picture.hpp>
+#include <vantage/io/png.hpp>
+#include <vantage/io/recording_aligned.hpp>
 #include <vantage/io/recording_any.hpp>
 #include <vantage/sim/replay_world.hpp>
 
@@ -133,7 +138,7 @@ TEST_F(FolderRecording, NamesWhatIsWrong) {
   put("camera.txt", "width 2.5\nheight 2\nfx 1\nfy 1\ncx 1\ncy 1\n");
   refused({"camera.txt", "width 2.5"});
   put("camera.txt", "width 2\nheight 2\nfx -1\nfy 1\ncx 1\ncy 1\n");
-  refused({"fx = -1"});
+  refused({"camera.txt", "fx = -1"});
   fs::remove(root / "camera.txt");
   refused({"camera.txt", "no such file"});
 }
@@ -155,6 +160,69 @@ TEST_F(FolderRecording, PicturesOfTheWrongKindAreRefusedWhenRead) {
   refuses([&] { return r.frame(0); }, {"2.ppm", "1 x 1 px", "2 x 2"});
   refuses([&] { return r.frame(1); }, {"9.pgm", "16-bit"});
   refuses([&] { return r.frame(2); }, {"10.pgm"});
+}
+
+// ---- depth without poses
+
+// A corner and a ball, from views 8 mm and 1 degree apart; the left of each picture shows what stays with the camera.
+class AlignedRecordingTest : public RecordingTest {
+ protected:
+  AlignedRecordingTest() {
+    fs::create_directories(root / "depth");
+    const auto corner = test::all_of(test::Plane{{0, 0, 1}, 0}, test::Plane{{1, 0, 0}, 0.5},
+                                     test::Plane{{0, 1, 0}, 0.4}, test::Sphere{{0.32, 0.18, 0.08}, 0.08});
+    for (int i = 0; i < 3; ++i) {
+      truth.push_back(look_at({0.006 * i, -0.006 * i, 0.28}, {0.4, 0.28, 0.12}));
+      Frame f = test::observe(corner, truth.back(), camera, Box3(Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()));
+      f.depth.leftCols(60).setConstant(3);
+      write_png(root / "depth" / concat(i, ".png"), depth_to_steps(f.depth, 0.0001));
+    }
+    put_camera("depth_unit_m 0.0001\n");
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 4; ++column) first_pose += concat(truth[0].T_W_C(row, column), ' ');
+    put("first_pose.txt", first_pose);
+  }
+  void put_camera(std::string_view more) const {
+    put("camera.txt", concat("width 320\nheight 240\nfx ", camera.fx, "\nfy ", camera.fy, "\ncx 160\ncy 120\n", more));
+  }
+  void refused(std::initializer_list<std::string_view> named) const {
+    refuses([&] { return read_aligned_recording(root, config); }, named);
+  }
+  const Camera camera = Camera::from_fov(320, 240, 1.1);
+  const AlignedRecordingConfig config = {.range_m = 1};
+  std::vector<View> truth;
+  std::string first_pose;
+};
+
+TEST_F(AlignedRecordingTest, FindsThePoses) {
+  ASSERT_TRUE(has_first_pose_only(root));
+  const AlignedRecording found = read_aligned_recording(root, config);
+  ASSERT_EQ(found.recording.size(), 3U);
+  ASSERT_EQ(found.alignments.size(), 2U);
+  EXPECT_EQ(found.recording.notes().size(), 1U);
+  const std::vector<View> views = found.recording.views();
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(distance_m(views[i], truth[i]), 0.002) << i;
+    EXPECT_GT(views[i].forward().dot(truth[i].forward()), std::cos(deg(0.4))) << i;
+  }
+  EXPECT_TRUE(found.recording.frame(1).colour.empty());
+  EXPECT_FLOAT_EQ(found.recording.frame(2).depth(100, 20), 3.0F) << "only the alignment looks no farther";
+  put("poses.txt", "");
+  EXPECT_FALSE(has_first_pose_only(root));
+}
+
+TEST_F(AlignedRecordingTest, NamesWhatIsWrong) {
+  refuses([&] { return read_aligned_recording(root, {.range_m = 0}); }, {"range_m = 0"});
+  write_png(root / "depth" / "1.png", Image<std::uint16_t>(Image<std::uint16_t>::Zero(240, 320)));
+  refused({"(frame 1)", "does not align", "1 m"});
+  put_camera("");
+  refused({"camera.txt", "depth_unit_m"});
+  put("first_pose.txt", first_pose + "\n" + first_pose);
+  refused({"first_pose.txt", "2 poses"});
+  put("first_pose.txt", first_pose);
+  put_camera("depth_unit_m 0.0001\n");
+  fs::remove_all(root / "depth");
+  refused({"no frame"});
 }
 
 // ---- TUM RGB-D
@@ -199,6 +267,8 @@ TEST_F(TumRecording, CalibrationCountsFromThePixelsCentre) {
   EXPECT_EQ(r.frames()[0].camera.cy, 0.75);
   put("calibration.txt", "517.3 516.5 0.5 0.25 0.1 0.2\n");
   refused({"calibration.txt:1", "distortion"});
+  put("calibration.txt", "0 516.5 0.5 0.25\n");
+  refused({"calibration.txt:1", "fx = 0"});
 }
 
 TEST_F(TumRecording, AcceptsAnotherCameraUnitAndReach) {
@@ -364,7 +434,7 @@ TEST_F(ColmapRecording, NamesWhatIsWrong) {
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 3 3 1\n");
   refused({"cameras.txt:1", "7 words"});
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 0 3 1 1\n");
-  refused({"cameras.txt:1", "fx"});
+  refused({"cameras.txt:1", "fx = 0"});
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 3 3 1 1\n1 PINHOLE 2 2 3 3 1 1\n");
   refused({"cameras.txt:2", "second camera 1"});
   put("sparse/0/cameras.txt", "1 PINHOLE 2 2 3 3 1 1\n");
@@ -400,11 +470,52 @@ TEST_F(RecordingTest, ReadsReplica) {
   EXPECT_FLOAT_EQ(r.frame(1).depth(0, 0), 2.0F);
 }
 
+TEST_F(RecordingTest, AReplicaCameraNamesWhatIsWrong) {
+  const auto with = [](std::string_view w, std::string_view fx, std::string_view scale) {
+    return parse_replica_camera(concat(R"({"camera": {"w": )", w, R"(, "h": 3, "fx": )", fx,
+                                       R"(, "fy": 5, "cx": 1.5, "cy": 1, "scale": )", scale, "}}"),
+                                "cam.json");
+  };
+  const auto [camera, depth_unit_m] = with("4", "6", "500");
+  EXPECT_EQ(camera.width, 4);
+  EXPECT_EQ(camera.height, 3);
+  EXPECT_EQ(camera.fx, 6);
+  EXPECT_EQ(camera.fy, 5);
+  EXPECT_EQ(camera.cx, 2);
+  EXPECT_EQ(camera.cy, 1.5);
+  EXPECT_EQ(depth_unit_m, 0.002);
+  refuses([&] { return with("4", "-6", "500"); }, {"cam.json", "fx = -6"});
+  refuses([&] { return with("0", "6", "500"); }, {"cam.json", "width = 0"});
+  refuses([&] { return with("4.5", "6", "500"); }, {"cam.json: /camera/w", "4.5"});
+  refuses([&] { return with("4", "\"6\"", "500"); }, {"cam.json: /camera/fx", "string"});
+  refuses([&] { return with("4", "6", "0"); }, {"cam.json: /camera/scale", "0"});
+  refuses([] { return parse_replica_camera("{}", "cam.json"); }, {"cam.json", "'camera'"});
+}
+
 TEST_F(RecordingTest, SaysWhatARecordingIs) {
   refused({root.string(), "transforms.json", "poses.txt", "TUM", "COLMAP"});
   refuses([&] { return read_recording(root / "nothing"); }, {"nothing", "no such"});
   put("file.txt", "text");
   refuses([&] { return read_recording(root / "file.txt"); }, {"file.txt", "no recording"});
+}
+
+TEST_F(RecordingTest, NamesThatNoFileCanHaveAreErrorsLikeOthers) {
+  const fs::path long_name = root / std::string(5000, 'x');
+  refuses([&] { return read_recording(long_name); }, {"xxx: no such file or folder"});
+  refuses([&] { return read_recording(long_name.string() + ".json"); }, {".json: no such file or folder"});
+  refuses([&] { return read_recording(long_name / "below"); }, {"below: no such file or folder"});
+  refuses([&] { return read_folder_recording(long_name); }, {"camera.txt"});
+  refuses([&] { return read_tum_recording(long_name); }, {"rgb.txt"});
+  refuses([&] { return read_replica_recording(long_name); }, {"cam_params.json"});
+  refuses([&] { return read_colmap_recording(long_name, root); }, {"cameras.txt"});
+  // Nor is a folder the file that tells a recording's kind.
+  fs::create_directories(root / "poses.txt");
+  refused({"no recording"});
+}
+
+TEST_F(RecordingTest, KnowsAJsonFileByItsNameInAnyCase) {
+  put("A.JSON", "{}");
+  refuses([&] { return read_recording(root / "A.JSON"); }, {"A.JSON", "frames"});
 }
 
 TEST_F(RecordingTest, ARecordingIsCheckedWhenMade) {
@@ -423,7 +534,7 @@ TEST_F(RecordingTest, ARecordingIsCheckedWhenMade) {
   refuses([&] { return Recording("test", {bad}); }, {"frame 0", "neither"});
   bad = frame;
   bad.camera.fx = 0;
-  EXPECT_THROW(Recording("test", {bad}), Error);
+  refuses([&] { return Recording("test", {frame, bad}); }, {"test (frame 1)", "fx = 0"});
 }
 
 }  // namespace
