@@ -97,6 +97,7 @@ class Album {
     if (poses_.empty()) {
       for (const char* kind : {"colour", "depth", "labels"})
         std::filesystem::remove_all(folder_ / kind);  // of an earlier mission
+      std::filesystem::remove(folder_ / "classes.txt");
       const Camera& c = f.camera;
       make_folder(folder_);
       write_file(folder_ / "camera.txt", concat("width ", c.width, "\nheight ", c.height, "\nfx ", c.fx, "\nfy ", c.fy,

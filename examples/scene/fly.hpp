@@ -49,8 +49,9 @@ Flown fly(const Options& o, const Input& input, std::ostream& log, Loop& loop, V
         (std::ranges::move(judges.metrics(map), std::back_inserter(all)), ...);
         return all;
       });
+  SkipRefused skip(log);
   Checkpoint checkpoint(CheckpointConfig{.file = o.out / "mission.checkpoint", .most_share = 0.03}, recorder,
-                        flown.referee, judges...);
+                        flown.referee, skip, judges...);
   Progress progress(recorder.record(), log,
                     {.budget_s = o.most_time_s(),
                      .budget_steps = o.measurements,
@@ -62,15 +63,15 @@ Flown fly(const Options& o, const Input& input, std::ostream& log, Loop& loop, V
     RgbdWorld again = world;
     for (std::size_t i = 0; i < state.visited.size(); ++i) {
       const Frame frame = *again.observe(state.visited[i]);
+      if (std::ranges::find(skip.steps(), i + 1) != skip.steps().end()) continue;
       flown.referee.saw(i + 1, frame);
       flown.album.saw(i + 1, frame);
     }
   }
   first = first.first(std::min<std::size_t>(first.size(), o.measurements));
   RefineInFlight refine{o.refine_per_s};
-  SkipRefused skip(log);
-  loop.resume(world, state, first, stop, clock, refine, flown.referee, judges..., recorder, flown.album, progress,
-              checkpoint, skip);
+  loop.resume(world, state, first, stop, clock, refine, skip, flown.referee, judges..., recorder, flown.album, progress,
+              checkpoint);
   flown.record = recorder.record();
   return flown;
 }

@@ -40,7 +40,7 @@ struct FailingCamera {
     if (taken == without_depth) f.depth.setConstant(none);
     if (taken == lost) f.view.T_W_C.translation().x() = std::numeric_limits<double>::quiet_NaN();
     if (taken == cut) f.depth.conservativeResize(f.depth.rows() / 2, f.depth.cols());
-    if (taken == in_the_wall) f.view.T_W_C.translation().x() = room.max().x();
+    if (taken == in_the_wall) f.view.T_W_C.translation().x() = room.max().x() - 0.12;  // walls overlap in corners
     ++taken;
     return f;
   }
@@ -75,11 +75,11 @@ TEST(SurfelMission, GoesOnWhereItCan) {
   const MissionState end =
       loop.run(world, *scene.start, around, Measurements(all), ModelledClock{}, Rng(7), skip, told);
   EXPECT_EQ(end.visited.size(), all) << log.str();
-  EXPECT_EQ(skip.total(), 2) << log.str();
+  EXPECT_EQ(skip.steps().size(), 2U) << log.str();
   EXPECT_NE(log.str().find("view 6 refused"), std::string::npos) << log.str();
   EXPECT_NE(log.str().find("view 7 refused"), std::string::npos) << log.str();
   EXPECT_EQ(told.step, (std::vector<std::size_t>{1, 2, 3, 4, 5, 8, 9, 10, 11}));
-  EXPECT_EQ(end.visited[in_the_wall].position().x(), box.max().x());
+  EXPECT_EQ(end.visited[in_the_wall].position().x(), box.max().x() - 0.12);
   EXPECT_GT(loop.map.surfels().size(), 1000U);
 }
 
