@@ -65,11 +65,12 @@ struct Projector {
     const T over_z = T(1) / (p[2] + T(S(1e-7)));
     return {f[0] * p[0] * over_z + c[0], f[1] * p[1] * over_z + c[1]};
   }
-  /// Before the camera and at most 20 % of the image's size outside of it; false for NaN.
+  /// Before the camera and at most 20 % of the image's size outside of it, counted from the middle of the first pixel
+  /// as the published code does; false for NaN.
   template <class T>
   auto in_sight(const std::array<T, 3>& p, const std::array<T, 2>& uv) const {
     const auto inside = [&](std::size_t i) {
-      return all_hold(uv[i] >= T(S(-0.2) * size[i] - S(0.5)), uv[i] <= T(S(1.2) * size[i] - S(0.5)));
+      return all_hold(uv[i] >= T(S(-0.2) * size[i]), uv[i] <= T(S(1.2) * size[i]));
     };
     return all_hold(p[2] >= T(0), inside(0), inside(1));
   }
