@@ -51,8 +51,10 @@ void Page::add_mesh(const TriangleMesh& mesh, const Album& album) {
   write_file(options.out / "mesh.ply", encode_ply(mesh));
   write_file(options.out / "mesh.glb", encode_glb(mesh));
   Scene reconstructed{.mesh = mesh, .uv = {}, .material = {}, .label = {}, .textures = {}, .notes = {}};
-  reconstructed.materials[0].colour.setOnes();
-  const SceneRenderer renderer(reconstructed, {.lighting = Lighting::none()});
+  // Colours that were fused have their light; a mesh without is a grey thing in ours.
+  const bool coloured = !mesh.colours.empty();
+  reconstructed.materials[0].colour.setConstant(coloured ? 1.0F : 0.8F);
+  const SceneRenderer renderer(reconstructed, {.lighting = coloured ? Lighting::none() : Lighting{}});
   for (std::size_t i = 0; i < std::min<std::size_t>(3, album.strips().size()); ++i) {
     const Album::Strip& s = album.strips()[i * (album.strips().size() - 1) / 2 % album.strips().size()];
     Rendering<channel::Colour> seen;
