@@ -51,10 +51,10 @@ void reachable(benchmark::State& state, double edge_m) {
   const bench::Apartment& map = apartment(edge_m);
   const Eigen::Vector3i start = map.grid().voxel_at(here.position());
   for (auto _ : state) {
-    const ReachableVoxels found(Passable(map, start, 0.3), start);
+    const ReachableVoxels found(Passable(map, start), start);
     benchmark::DoNotOptimize(found.in(block_of(start)));
   }
-  const ReachableVoxels found(Passable(map, start, 0.3), start);
+  const ReachableVoxels found(Passable(map, start), start);
   int voxels = 0;
   for (const Eigen::Vector3i& block : map.known_blocks()) voxels += found.in(block).count();
   state.SetItemsProcessed(state.iterations() * voxels);

@@ -45,7 +45,7 @@ struct Explorer {
   /// fly(loop, stop) with the loop of a method, over a map with this update.
   template <class Update, class Stop, class F>
   void with(const std::string& method, const Stop& stop, F&& fly) const {
-    const Shortcut<> route(AStar({.own_ball_m = clearance_m}));
+    const Shortcut<> route(AStar{});
     const TravelTradeoff tradeoff(route, {.speed_m_s = speed_m_s});
     const Frontier frontier({.cone = {.farthest_m = 0.5 * range_m, .min_cosine = 0.25}, .smallest_m2 = 0.02});
     const Unexplored unexplored({.camera = sensor, .far_m = range_m});
@@ -54,8 +54,7 @@ struct Explorer {
     else if (method == "information_gain")
       fly(NbvLoop{map<Update>(), InformationGain(sensor), frontier, tradeoff}, stop);
     else if (method == "nbvp")  // a tree always proposes something
-      fly(NbvLoop{map<Update>(), unexplored, ViewTree({.own_ball_m = clearance_m}),
-                  FirstOfBranch({.speed_m_s = speed_m_s})},
+      fly(NbvLoop{map<Update>(), unexplored, ViewTree{}, FirstOfBranch({.speed_m_s = speed_m_s})},
           AnyOf{stop, UtilityBelow{1e-9}});
     else
       fly(NbvLoop{map<Update>(), Uninformed{}, Local({.radius_m = 2}),

@@ -69,7 +69,7 @@ struct Reconstructor {
       fly(NbvLoop{map<Preset>(), Unexplored({.camera = sensor, .far_m = range_m}), frontiers, tradeoff()});
     else
       fly(NbvLoop{map<Preset>(), Uninformed{}, Local({.radius_m = 2}),
-                  MinusCost(route(), {.weight_per_m = 0, .speed_m_s = speed_m_s})});
+                  MinusCost(AStar{}, {.weight_per_m = 0, .speed_m_s = speed_m_s})});
   }
 
  private:
@@ -78,8 +78,7 @@ struct Reconstructor {
     using Exploitation = std::conditional_t<std::is_same_v<Preset, preset::thesis>, LeastConfidence, UnsureSurface>;
     return ConfidenceExploration<Exploitation>({.camera = sensor, .far_m = range_m});
   }
-  [[nodiscard]] AStar route() const { return AStar({.own_ball_m = clearance_m}); }
-  [[nodiscard]] TravelTradeoff<AStar> tradeoff() const { return {route(), {.speed_m_s = speed_m_s}}; }
+  [[nodiscard]] TravelTradeoff<AStar> tradeoff() const { return {AStar{}, {.speed_m_s = speed_m_s}}; }
 };
 
 inline Reconstructor reconstructor_of(const Options& o, const Input& input) {

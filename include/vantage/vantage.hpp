@@ -16,6 +16,7 @@
 #include <vantage/core/large_matrix.hpp>
 #include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
+#include <vantage/core/srgb.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/box.hpp>
 #include <vantage/geometry/camera.hpp>

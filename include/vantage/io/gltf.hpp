@@ -20,6 +20,7 @@
 #include <Eigen/Geometry>
 
 #include <vantage/core/error.hpp>
+#include <vantage/core/srgb.hpp>
 #include <vantage/geometry/scene.hpp>
 #include <vantage/io/file.hpp>
 #include <vantage/io/gltf_accessor.hpp>
@@ -152,10 +153,7 @@ class GltfReader {
     }
   }
 
-  static float encoded(double linear) {  // IEC 61966-2-1
-    const double x = std::clamp(linear, 0.0, 1.0);
-    return static_cast<float>(x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055);
-  }
+  static float encoded(double linear) { return static_cast<float>(srgb_encoded(linear)); }
   void make_materials() {
     // As many, whatever tinygltf made of the text.
     places_.resize(model_.materials.size());

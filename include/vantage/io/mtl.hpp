@@ -12,8 +12,8 @@
 
 #include <vantage/core/error.hpp>
 #include <vantage/io/number.hpp>
-#include <vantage/io/printable.hpp>
 #include <vantage/io/obj_lines.hpp>
+#include <vantage/io/printable.hpp>
 
 namespace vantage {
 

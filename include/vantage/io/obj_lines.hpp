@@ -15,8 +15,8 @@
 
 namespace vantage {
 
-/// Lines of an OBJ or MTL file, read on demand: words and numbers one after the other. A backslash joins a line with the
-/// next.
+/// Lines of an OBJ or MTL file, read on demand: words and numbers one after the other. A backslash joins a line with
+/// the next.
 class ObjLines {
  public:
   ObjLines(std::string_view text, std::string where) : text_(text), where_(std::move(where)) {}

@@ -18,6 +18,7 @@
 #include <nlohmann/json.hpp>
 
 #include <vantage/core/error.hpp>
+#include <vantage/core/srgb.hpp>
 #include <vantage/geometry/scene.hpp>
 #include <vantage/io/file.hpp>
 #include <vantage/io/json.hpp>
@@ -40,9 +41,10 @@ class GlbWriter {
 
   /// The index of a new material; `texture` is one of add_picture's or -1.
   std::size_t add_material(const std::string& name, const Eigen::Vector3f& colour, int texture = -1) {
-    nlohmann::json base = {{"baseColorFactor", {linear(colour[0]), linear(colour[1]), linear(colour[2]), 1}},
-                           {"metallicFactor", 0},
-                           {"roughnessFactor", 1}};
+    nlohmann::json base = {
+        {"baseColorFactor", {srgb_linear(colour[0]), srgb_linear(colour[1]), srgb_linear(colour[2]), 1}},
+        {"metallicFactor", 0},
+        {"roughnessFactor", 1}};
     if (texture >= 0) base["baseColorTexture"] = {{"index", texture}};
     json_["materials"].push_back({{"name", name}, {"pbrMetallicRoughness", base}, {"doubleSided", true}});
     return json_["materials"].size() - 1;
@@ -66,7 +68,7 @@ class GlbWriter {
     json_["accessors"].back()["max"] = {box.max().x(), box.max().y(), box.max().z()};
     if (!colours.empty()) {
       std::vector<std::array<std::uint16_t, 4>> rgba;
-      const auto step = [](float c) { return static_cast<std::uint16_t>(std::lround(65535 * linear(c))); };
+      const auto step = [](float c) { return static_cast<std::uint16_t>(std::lround(65535 * srgb_linear(c))); };
       for (const Eigen::Vector3f& c : colours) rgba.push_back({step(c[0]), step(c[1]), step(c[2]), 65535});
       attributes["COLOR_0"] = add_accessor(std::as_bytes(std::span(rgba)), rgba.size(), "VEC4", 5123, 34962);
       json_["accessors"].back()["normalized"] = true;
@@ -101,10 +103,6 @@ class GlbWriter {
   }
 
  private:
-  static double linear(float encoded) {  // IEC 61966-2-1
-    const double x = std::clamp(static_cast<double>(encoded), 0.0, 1.0);
-    return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-  }
   std::size_t add_view(std::span<const std::byte> bytes, int target) {
     nlohmann::json view = {{"buffer", 0}, {"byteOffset", buffer_.size()}, {"byteLength", bytes.size()}};
     if (target != 0) view["target"] = target;

@@ -64,8 +64,9 @@ class NbvLoop {
 
   /// Where to look next (eq. 2.19), or none when nothing is worth going to. A robot may call this and map.integrate()
   /// in its own rhythm. Throws Error if a policy breaks its promise (a utility that is not finite, a decision for a
-  /// candidate that does not exist); the map is not changed.
+  /// candidate that does not exist), or for a situation at no rigid, finite pose; the map is not changed.
   std::optional<Plan> plan(const Situation& q, Rng& rng) {
+    check_view(q.here, "NbvLoop::plan (here)");
     const auto scorer = scorer_for(q, rng);
     const Score score(scorer);
     Candidates c = sampler.sample(std::as_const(map), q, score, rng);

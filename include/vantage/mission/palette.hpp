@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include <vantage/core/srgb.hpp>
 #include <vantage/io/colour_map.hpp>
 
 // Colours for pictures of maps. Values are drawn in viridis (io/colour_map.hpp); what follows is for how sure and how
@@ -31,11 +32,7 @@ inline Rgb srgb(const Oklab& c) {
   const double l = cube(c.l + 0.3963377774 * c.a + 0.2158037573 * c.b);
   const double m = cube(c.l - 0.1055613458 * c.a - 0.0638541728 * c.b);
   const double s = cube(c.l - 0.0894841775 * c.a - 1.2914855480 * c.b);
-  const auto encode = [](double x) {
-    x = std::clamp(x, 0.0, 1.0);
-    return static_cast<std::uint8_t>(
-        std::lround(255 * (x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055)));
-  };
+  const auto encode = [](double x) { return static_cast<std::uint8_t>(std::lround(255 * srgb_encoded(x))); };
   return {encode(4.0767416621 * l - 3.3077115913 * m + 0.2309699292 * s),
           encode(-1.2684380046 * l + 2.6097574011 * m - 0.3413193965 * s),
           encode(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s)};
@@ -43,10 +40,7 @@ inline Rgb srgb(const Oklab& c) {
 
 /// The inverse of srgb, for colours that sRGB can show.
 inline Oklab oklab(const Rgb& c) {
-  const auto decode = [](std::uint8_t x) {
-    const double v = x / 255.0;
-    return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
-  };
+  const auto decode = [](std::uint8_t x) { return srgb_linear(x / 255.0); };
   const double r = decode(c[0]), g = decode(c[1]), b = decode(c[2]);
   const double l = std::cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
   const double m = std::cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);

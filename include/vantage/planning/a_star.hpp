@@ -22,7 +22,8 @@
 namespace vantage {
 
 struct AStarConfig {
-  double own_ball_m = 0.3;  ///< radius of the space around the robot that is open because it is there, >= 0
+  /// Radius of the space around the robot that is open because it is there, >= 0; unset: the map's clearance_m().
+  std::optional<double> own_ball_m = {};
 };
 
 /// The router of voxel maps (section 6.2.3): shortest paths over the 26-connected graph of the voxels in which the
@@ -40,7 +41,7 @@ class AStar {
   AStar() = default;
   explicit AStar(const AStarConfig& config) : config_(config) {
     Check check("AStar::Config");
-    check.not_negative("own_ball_m", config.own_ball_m);
+    check.not_negative("own_ball_m", config.own_ball_m.value_or(0));
     check.done();
   }
 

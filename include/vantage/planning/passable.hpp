@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 #include <concepts>
+#include <optional>
 
 #include <Eigen/Core>
 
@@ -20,14 +21,14 @@ concept PassableVoxels = requires(const P p, const Eigen::Vector3i& voxel, const
 };
 
 /// The voxels through which a robot can leave the place where it is: navigable ones, and its own ball, which is every
-/// voxel whose centre is within `own_ball_m` of the start voxel's centre. The robot is there, so the ball is open even
-/// if the map does not know it yet; only what the map holds occupied stays closed, except for the start itself. Refers
-/// to the map.
+/// voxel whose centre is within `own_ball_m` (unless told, the map's clearance: the robot's own size) of the start
+/// voxel's centre. The robot is there, so the ball is open even if the map does not know it yet; only what the map
+/// holds occupied stays closed, except for the start itself. Refers to the map.
 template <NavigableMap M>
 class Passable {
  public:
-  Passable(const M& map, const Eigen::Vector3i& start, double own_ball_m)
-      : map_(&map), start_(start), own_ball_m_(own_ball_m + 1e-9) {
+  Passable(const M& map, const Eigen::Vector3i& start, const std::optional<double>& own_ball_m = {})
+      : map_(&map), start_(start), own_ball_m_(own_ball_m.value_or(map.clearance_m()) + 1e-9) {
     const Eigen::Array3d voxels = own_ball_m_ / grid().voxel_m().array();
     const Eigen::Array3i reach = voxels.min(VoxelGrid::most_voxels).cast<int>();
     low_ = (start.array() - reach).max(0), high_ = (start.array() + reach).min(grid().size().array() - 1);

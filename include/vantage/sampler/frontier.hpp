@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -44,9 +45,9 @@ class Frontier {
     ViewCone cone = {};           ///< from where a frontier voxel is looked at
     double cell_m = 1;            ///< edge of the cells that part the frontier into clusters, > 0
     double smallest_m2 = 0.1;     ///< clusters of less area are left out (a voxel counts as one of its faces), >= 0
-    double own_ball_m = 0.3;      ///< around the robot, open because it is there, as AStar's, >= 0
     int most_looks = 3;           ///< measurements that may look at a voxel in vain, >= 1
     double looked_rad = deg(15);  ///< a measurement looked at what is no farther from its optical axis, in (0, pi]
+    std::optional<double> own_ball_m = {};  ///< as AStar's
   };
   Frontier() : Frontier(Config{}) {}
   /// Throws Error naming every bad member.
@@ -56,7 +57,7 @@ class Frontier {
     config.cone.check(check);
     check.positive("cell_m", config.cell_m);
     check.not_negative("smallest_m2", config.smallest_m2);
-    check.not_negative("own_ball_m", config.own_ball_m);
+    check.not_negative("own_ball_m", config.own_ball_m.value_or(0));
     check(config.most_looks >= 1, "most_looks", config.most_looks, ">= 1");
     check(config.looked_rad > 0 && config.looked_rad <= deg(180), "looked_rad", config.looked_rad, "in (0, pi]");
     check.done();

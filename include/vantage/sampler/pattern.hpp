@@ -26,7 +26,8 @@ class Pattern {
   }
   /// The whole sequence, in order.
   [[nodiscard]] const std::vector<View>& views() const& { return views_; }
-  [[nodiscard]] std::vector<View> views() && { return std::move(views_); }  // so that `for (v : Spiral(...).views())` works
+  // So that `for (v : Spiral(...).views())` works.
+  [[nodiscard]] std::vector<View> views() && { return std::move(views_); }
 
  protected:
   Pattern(std::vector<View> views, double reached_m) : views_(std::move(views)), reached_m_(reached_m) {}

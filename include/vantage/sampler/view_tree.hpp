@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -25,11 +26,11 @@
 namespace vantage {
 
 struct ViewTreeConfig {
-  int nodes = 30;               ///< of a tree, 1 to 65536
-  int max_nodes = 200;          ///< if nothing is worth anything it grows on, up to so many; nodes to 65536
-  double step_m = 1;            ///< length of an edge at most, > 0
-  double discount_per_m = 0.5;  ///< lambda, >= 0
-  double own_ball_m = 0.3;      ///< radius of the space around the robot that is open because it is there, >= 0
+  int nodes = 30;                         ///< of a tree, 1 to 65536
+  int max_nodes = 200;                    ///< if nothing is worth anything it grows on, up to so many; nodes to 65536
+  double step_m = 1;                      ///< length of an edge at most, > 0
+  double discount_per_m = 0.5;            ///< lambda, >= 0
+  std::optional<double> own_ball_m = {};  ///< as AStar's
 };
 
 /// A tree of views that grows from where the robot is: the receding horizon of Bircher et al. ("Receding horizon
@@ -58,7 +59,7 @@ class ViewTree {
           "nodes to 65536");
     check.positive("step_m", config.step_m);
     check.not_negative("discount_per_m", config.discount_per_m);
-    check.not_negative("own_ball_m", config.own_ball_m);
+    check.not_negative("own_ball_m", config.own_ball_m.value_or(0));
     check.done();
   }
 

@@ -50,10 +50,10 @@ TEST(RayCaster, FindsWhatStepsFind) {
   Rng rng(1);
   map.draw_all([&](const Eigen::Vector3i& v) {  // whole blocks of each kind, and mixed ones
     const auto kind = (block_of(v).x() + 2 * block_of(v).y() + block_of(v).z()) % 4;
-    return kind < 2              ? Space::free
-           : kind == 2           ? Space::unknown
+    return kind < 2             ? Space::free
+           : kind == 2          ? Space::unknown
            : rng.index(30) == 0 ? Space::occupied
-                                 : static_cast<Space>(rng.index(2));
+                                : static_cast<Space>(rng.index(2));
   });
   const DrawnVoxels& plain = map;
   const RayCaster<DrawnVoxels> caster(plain);

@@ -104,17 +104,13 @@ TEST(VoxelParts, AWalkCrossesTheVoxelsOfItsSegment) {
     cells.push_back(to.cast<int>());
     for (std::size_t i = 0; i < cells.size(); ++i) {
       ASSERT_TRUE((cells[i].array() >= 0).all() && (cells[i].array() < size.array()).all());
-      if (i > 0) {
-        ASSERT_EQ((cells[i] - cells[i - 1]).cwiseAbs().sum(), 1);
-      }
+      if (i > 0) { ASSERT_EQ((cells[i] - cells[i - 1]).cwiseAbs().sum(), 1); }
       const Eigen::Vector3d along = to - from;
       const Eigen::Array3d a = (cells[i].cast<double>() - from).array() / along.array(),
                            b = (cells[i].cast<double>() + Eigen::Vector3d::Ones() - from).array() / along.array();
       ASSERT_LE(a.min(b).maxCoeff(), a.max(b).minCoeff() + 1e-9) << "the segment crosses it";
     }
-    if (spread == 1) {
-      EXPECT_EQ(cells.front(), Eigen::Vector3i(from.cast<int>()));
-    }
+    if (spread == 1) { EXPECT_EQ(cells.front(), Eigen::Vector3i(from.cast<int>())); }
   }
 }
 

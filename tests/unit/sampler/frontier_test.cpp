@@ -188,12 +188,12 @@ TEST(FrontierSampler, RefusesBadConfigsAllAtOnce) {
               .cone = {.nearest_m = -1},
               .cell_m = 0,
               .smallest_m2 = -1,
-              .own_ball_m = -1,
               .most_looks = 0,
-              .looked_rad = 0});
+              .looked_rad = 0,
+              .own_ball_m = -1});
   });
   for (const char* name :
-       {"candidates", "cone.nearest_m", "cell_m", "smallest_m2", "own_ball_m", "most_looks", "looked_rad"})
+       {"candidates", "cone.nearest_m", "cell_m", "smallest_m2", "most_looks", "looked_rad", "own_ball_m"})
     EXPECT_NE(message.find(name), std::string::npos) << message;
 }
 

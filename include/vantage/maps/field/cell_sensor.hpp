@@ -98,8 +98,7 @@ struct CellSensor {
     constexpr std::string_view where = "CellSensor::measure";
     const Box2& f = image.footprint;
     const Image<double>& v = image.values;
-    if (!is_proper(f))
-      throw Error(where, "the footprint is empty or not finite", "a rectangle of positive area");
+    if (!is_proper(f)) throw Error(where, "the footprint is empty or not finite", "a rectangle of positive area");
     if (v.size() == 0) throw Error(where, "the image has no pixels", "at least one");
     if (v.isInf().any()) throw Error(where, "a pixel is infinite", "finite values, or NaN where there is none");
     const double height_m = image.view.position().z();

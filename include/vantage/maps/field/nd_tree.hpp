@@ -49,8 +49,8 @@ class NdTree {
   explicit NdTree(const Config& config) : config_(config) {
     Check check("NdTree::Config");
     const Box2& a = config.area;
-    check(is_proper(a), "area",
-          concat(a.min().transpose(), " to ", a.max().transpose()), "finite, of positive width and height");
+    check(is_proper(a), "area", concat(a.min().transpose(), " to ", a.max().transpose()),
+          "finite, of positive width and height");
     check(config.branching >= 2 && config.branching <= 16, "branching", config.branching, "2 to 16");
     check(config.depth >= 0 && config.depth <= 12, "depth", config.depth, "0 to 12");
     check(std::pow(config.branching, config.depth) <= 4096, "branching^depth", std::pow(config.branching, config.depth),
