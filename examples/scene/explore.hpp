@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
+#include <vantage/geometry/look_around.hpp>
 #include <vantage/io/octomap_bt.hpp>
 #include <vantage/loop/stop_rules.hpp>
 
 #include "explore_results.hpp"
 #include "explorer.hpp"
-#include "first_views.hpp"
 #include "fly.hpp"
 #include "missions.hpp"
 

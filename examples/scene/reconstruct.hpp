@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include <vantage/geometry/look_around.hpp>
 #include <vantage/io/splat_ply.hpp>
 #include <vantage/loop/stop_rules.hpp>
 
-#include "first_views.hpp"
 #include "fly.hpp"
 #include "missions.hpp"
 #include "reconstruct_results.hpp"

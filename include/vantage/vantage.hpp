@@ -25,6 +25,7 @@
 #include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/grid_ray.hpp>
 #include <vantage/geometry/image.hpp>
+#include <vantage/geometry/look_around.hpp>
 #include <vantage/geometry/triangle_mesh.hpp>
 #include <vantage/geometry/view.hpp>
 #include <vantage/geometry/visible_voxels.hpp>

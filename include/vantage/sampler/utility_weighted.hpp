@@ -12,6 +12,7 @@
 #include <vantage/concepts/explain.hpp>
 #include <vantage/concepts/map.hpp>
 #include <vantage/concepts/policy.hpp>
+#include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/core/rng.hpp>
 
@@ -60,6 +61,8 @@ class UtilityWeighted {
     }
     return kept;
   }
+  void save(Sink& sink) const requires Persistent<Base> { base_.save(sink); }
+  void load(Source& source) requires Persistent<Base> { base_.load(source); }
 
  private:
   /// Of exponentially distributed waits with these rates, the least comes first with probability p_i, the next one with

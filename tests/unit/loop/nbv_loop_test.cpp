@@ -292,6 +292,12 @@ struct Counting {
   }
 };
 
+TEST(NbvLoop, PlansFromARealPoseOnly) {
+  NbvLoop loop{archetype::Map{}, archetype::Utility{}, archetype::Sampler{}, archetype::Selector{}};
+  Rng rng(1);
+  EXPECT_THROW(static_cast<void>(loop.plan({.here = nadir(std::nan(""), 0, 1)}, rng)), Error);
+}
+
 TEST(NbvLoop, AMeasurementThatIsRefusedEndsTheMission) {
   auto loop = fussy_loop({2});
   archetype::World world;

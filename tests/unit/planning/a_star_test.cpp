@@ -106,6 +106,15 @@ TEST_F(TwoRooms, TheRobotLeavesWhereItIs) {
   EXPECT_GT(AStar({.own_ball_m = 1}).lengths_m(map, from, {&beyond, 1}).front(), 2);
 }
 
+TEST_F(TwoRooms, ItsOwnBallIsTheMapsClearanceUnlessTold) {
+  // Whatever reaches into the one voxel that is unknown, the robot's, is not navigable: three voxels around.
+  test::DrawnVoxels wide(grid, 0.75);
+  wide.draw_all([](const Eigen::Vector3i& v) { return v == Eigen::Vector3i(4, 4, 4) ? Space::unknown : Space::free; });
+  const View from = at(grid, {4, 4, 4}), goal = at(grid, {4, 9, 4});
+  EXPECT_NEAR(AStar().lengths_m(wide, from, {&goal, 1}).front(), 1.25, 1e-9);
+  EXPECT_EQ(AStar({.own_ball_m = 0.25}).lengths_m(wide, from, {&goal, 1}).front(), infinity);
+}
+
 TEST_F(TwoRooms, RefusesPosesThatAreNone) {
   const AStar router;
   const View good = at(grid, {3, 3, 3}), bad = nadir(std::numeric_limits<double>::quiet_NaN(), 1, 1);

@@ -86,6 +86,27 @@ TEST(UtilityWeighted, PaysTheUtilitiesAndKeepsTheOrder) {
   EXPECT_TRUE(sample(UtilityWeighted(pool({})), 7).views.empty());
 }
 
+/// Proposes one view, each time another.
+struct Counting {
+  int calls = 0;
+  template <Map M>
+  Candidates sample(const M&, const Situation&, const Score&, Rng&) {
+    return {.views = {nadir(++calls, 0, 1)}};
+  }
+  void save(Sink& sink) const { sink.put(calls); }
+  void load(Source& source) { source.get(calls); }
+};
+static_assert(Persistent<UtilityWeighted<Counting>> && !Persistent<UtilityWeighted<Pool>>);
+
+TEST(UtilityWeighted, RemembersWhatItsBaseRemembers) {
+  UtilityWeighted a(Counting{2}), b(Counting{});
+  Sink sink;
+  a.save(sink);
+  Source source(sink.bytes(), "test");
+  b.load(source);
+  EXPECT_EQ(sample(b, 1).views.front().position().x(), 3);
+}
+
 struct Paid {
   template <Map M>
   Candidates sample(const M&, const Situation&, const Score&, Rng&) const {
