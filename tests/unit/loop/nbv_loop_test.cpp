@@ -293,7 +293,7 @@ struct Counting {
 };
 
 TEST(NbvLoop, PlansFromARealPoseOnly) {
-  NbvLoop loop{archetype::Map{}, archetype::Utility{}, archetype::Sampler{}, archetype::Selector{}};
+  NbvLoop loop{archetype::Map{}, Uninformed{}, archetype::Sampler{}, archetype::Selector{}};
   Rng rng(1);
   EXPECT_THROW(static_cast<void>(loop.plan({.here = nadir(std::nan(""), 0, 1)}, rng)), Error);
 }
