@@ -38,6 +38,7 @@ inline std::filesystem::path home_named(const std::string& name, const std::vect
 inline scene::Mission fly(const Options& o, const Unit& unit, scene::Options mission) {
   mission.out = o.out / "missions" / unit.name;
   mission.keep_views = false;
+  vantage::make_folder(mission.out);
   std::ostream silent(nullptr);
   scene::Mission flown = scene::fly_mission(mission, scene::load(mission), silent);
   std::filesystem::remove(mission.out / "mission.checkpoint");

@@ -20,8 +20,8 @@ template <class Update>
 Mission explore(const Options& o, const Input& input, std::ostream& log) {
   Mission mission;
   const std::vector<View> first = look_all_around(input.start, deg(o.field_of_view_deg));
-  explorer_of(o, input).with<Update>(o.method, o.stop_rule(), [&](auto loop, const auto& stop) {
-    Flown flown = fly(o, input, log, loop, first, stop, {});
+  Explorer(o, input).with<Update>(o.method, o.stop_rule(), [&](auto loop, const auto& stop) {
+    Flown flown = fly(o, input, log, loop, first, stop);
     write_bt(o.out / "map.bt", loop.map);
     write_exploration(o, input, flown.referee, flown.album, flown.record);
     mission = {.record = std::move(flown.record)};

@@ -31,7 +31,7 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
           {"Mission time", short_number(tenths(last.elapsed_s)), "s", "planning, mapping, flight"},
           {"Way", short_number(tenths(last.travelled_m)), "m", concat(plans, " views flown to")},
           {"Planning", short_number(tenths(1000 * planning_s / static_cast<double>(std::max<std::size_t>(plans, 1)))),
-           "ms", "a view, on average"},
+           "ms", o.clock == ClockKind::real ? "a view, as this machine takes" : "a view, by the modelled clock"},
           {"Collisions", short_number(static_cast<double>(referee.collisions())), "",
            concat("a ball of ", short_number(100 * o.body_radius_m), " cm; the nearest surface was ",
                   short_number(std::round(100 * least_clearance_m(record))), " cm from it")},
@@ -48,9 +48,10 @@ void write_exploration(const Options& o, const Input& input, const Referee& refe
   Page page{o, {.title = "Exploring " + input.name}};
   page.clear();
   Report& report = page.report;
-  report.lead = concat("A robot that knew nothing of ", input.name, " explored it, method ", o.method, ": ",
-                       record.steps.back().index, " views, fused into a mesh of ", mesh.triangles.size(),
-                       " triangles. It flew only where its map of voxels was free. ", input.note);
+  report.lead =
+      concat("A robot that knew nothing of ", input.name, " explored it, method ", o.method, ": ",
+             record.steps.back().index, " views, fused into a mesh of ", mesh.triangles.size(),
+             " triangles. It flew only where its map of voxels was free. ", how_it_ended(o, record), input.note);
   report.figures = key_figures(o, record, judged, referee);
   add_flight(page, input, referee, record);
   page.add_mesh(mesh, album);

@@ -41,11 +41,14 @@ Picture from_above(const Referee::Growth& growth, const Referee& referee, const 
 
 // Four moments of the mission side by side.
 Picture growth_strip(const Referee& referee, const MissionRecord& record) {
-  const std::vector<Referee::Growth>& growth = referee.growth();
   constexpr int gap = 12;
   std::vector<Picture> parts;
-  for (std::size_t k = 1; k <= 4; ++k)
-    parts.push_back(from_above(growth[(growth.size() - 1) * k / 4], referee, record, 480));
+  for (int k = 1; k <= 4; ++k) {
+    std::size_t last = 0;  // until then
+    while (last + 1 < record.steps.size() && record.steps[last + 1].elapsed_s <= record.steps.back().elapsed_s * k / 4)
+      ++last;
+    parts.push_back(from_above(referee.growth()[last], referee, record, 480));
+  }
   Picture all(4 * parts[0].width() + 3 * gap, parts[0].height());
   for (int y = 0; y < all.height(); ++y)
     for (int x = 0; x < all.width(); ++x) all(y, x) = {255, 255, 255};
@@ -77,10 +80,10 @@ std::string path_csv(const Referee& referee) {
 
 void add_flight(Page& page, const Input& input, const Referee& referee, const MissionRecord& record) {
   page.add("map.png", "The map from above",
-           "White is free, dark occupied, grey unknown; the way in blue, a dot for each view and the way it looks, "
-           "black where it started.",
+           "White is free, dark occupied at some height, grey unknown; the way in blue, above furniture too, a dot for "
+           "each view and the way it looks, black where it started.",
            from_above(referee.growth().back(), referee, record, 1000));
-  page.add("growth.png", "How the map grew", "After a quarter, half, three quarters and all of the views.",
+  page.add("growth.png", "How the map grew", "After a quarter, half, three quarters and all of the time.",
            growth_strip(referee, record));
   page.add("coverage.png", "Surface seen", "Grey surface was seen, red was not, though it can be.",
            seen_surface(input, referee));

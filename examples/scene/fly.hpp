@@ -9,7 +9,6 @@
 #include <ostream>
 #include <vector>
 
-#include <vantage/loop/clocks.hpp>
 #include <vantage/loop/mission_state.hpp>
 #include <vantage/loop/refine_in_flight.hpp>
 #include <vantage/loop/skip_refused.hpp>
@@ -36,11 +35,11 @@ struct Flown {
 /// shows the same again.
 template <class Loop, class Stop, class... Judges>
 Flown fly(const Options& o, const Input& input, std::ostream& log, Loop& loop, Views first, const Stop& stop,
-          const ModelledClock::Config& costs, Judges&... judges) {
+          Judges&... judges) {
   RgbdWorld world(*input.scene, Rng(o.seed).fork(1), o.sensor());
   Flown flown{.referee = Referee(input, o),
               .album = Album(o.keep_views ? o.out / "views" : "", o.range_m, input.scene->classes)};
-  MissionClock clock(o.clock, costs);
+  MissionClock clock(o.clock, o.costs());
   MissionState state{.here = input.start, .rng = Rng(o.seed)};
   Recorder recorder(
       RecorderConfig{.file = o.out / "mission.json", .config = config(o, input), .seed = o.seed, .with_prior = false},

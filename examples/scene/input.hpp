@@ -10,9 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <vantage/eval/nearest_points.hpp>
-#include <vantage/eval/reachable_space.hpp>
-#include <vantage/eval/surface_coverage.hpp>
 #include <vantage/geometry/mesh_sampling.hpp>
 #include <vantage/io/recording_aligned.hpp>
 #include <vantage/io/recording_any.hpp>
@@ -22,6 +19,7 @@
 #include <vantage/sim/room.hpp>
 
 #include "options.hpp"
+#include "visible_space.hpp"
 
 namespace scene {
 
@@ -36,53 +34,37 @@ struct Input {
   SurfaceSamples surface = {};   ///< what of the scene can be seen from the candidates' free space; none of a recording
 };
 
-inline constexpr std::size_t surface_samples = 200'000;
-
-/// Whether nothing lies between two points; surfaces that hold one of them do not count.
-struct Unoccluded {
-  const RayScene& rays;
-  bool operator()(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
-    const double distance_m = (to - from).norm();
-    return !rays.occluded({from, (to - from) / distance_m, 0, distance_m - 1e-3});
-  }
-};
-
-/// The part of the surface that some of the positions see. Not more than 200 of them are asked, spread evenly.
-inline SurfaceSamples seen_from(const Scene& scene, const std::vector<Eigen::Vector3d>& positions, const Options& o) {
-  const SurfaceSamples all = sample_surface(scene.mesh, surface_samples, Rng(o.seed).fork(11));
-  std::vector<Eigen::Vector3d> asked;
-  const std::size_t stride = positions.size() / 200 + 1;
-  for (std::size_t i = 0; i < positions.size(); i += stride) asked.push_back(positions[i]);
-  const RayScene rays(scene);
-  return all.where(visible_surface(all, asked, {.far_m = o.range_m}, Unoccluded{rays}));
-}
-
 /// Inside: everywhere that the robot's body reaches from the start, with a random heading that looks a little down.
 inline void look_from_inside(Input& input, const Options& o) {
   const Scene& scene = *input.scene;
-  const SurfaceSamples samples = sample_surface(scene.mesh, surface_samples, Rng(o.seed).fork(10));
-  const NearestPoints nearest(samples.points);
-  const auto is_free = [&](const Eigen::Vector3d& p) {
-    return static_cast<double>(nearest(p.cast<float>()).distance_m) >= o.body_radius_m;
-  };
-  const Eigen::Vector3d centre = scene.mesh.bounds().center();
+  input.bounds = scene.mesh.bounds();
+  const Eigen::Vector3d centre = input.bounds.center();
   input.start = scene.start.value_or(look_at(centre, centre + Eigen::Vector3d::UnitX()));
   if (!o.start.empty()) input.start.T_W_C.translation() = Eigen::Vector3d(o.start[0], o.start[1], o.start[2]);
   const Eigen::Vector3d start = input.start.position();
-  if (!is_free(start))
+  if (!input.bounds.contains(start))
+    throw Error(input.name, concat("the start (", start.transpose(), ") is outside of the scene"),
+                concat("--start X Y Z between (", input.bounds.min().transpose(), ") and (",
+                       input.bounds.max().transpose(), ")"));
+  const RayScene rays(scene);
+  const std::vector<Eigen::Vector3d> positions = free_positions(scene, start, o);
+  if (positions.empty())
     throw Error(input.name,
                 concat("the start (", start.transpose(), ") is within ", o.body_radius_m, " m of a surface"),
                 "--start X Y Z in the open, or a smaller --body");
-  const std::vector<Eigen::Vector3d> positions =
-      reachable_positions(scene.mesh.bounds(), std::min(0.25, o.body_radius_m), start, is_free);
+  input.note += concat(input.note.empty() ? "" : " ", "The robot's body can be in ",
+                       tenths(static_cast<double>(positions.size()) * std::pow(spacing_m(o), 3)), " m^3 of it.");
+  if (const double open = open_sky(rays, start); open > 0.3)
+    input.note += concat(" In ", std::round(100 * open),
+                         " % of all directions from the start there is nothing: it may "
+                         "be outside.");
   Rng rng = Rng(o.seed).fork(12);
   for (const Eigen::Vector3d& p : positions) {
     const double heading_rad = rng.uniform(0, 2 * std::numbers::pi), pitch_rad = rng.uniform(deg(-30), deg(15));
     const Eigen::Vector3d forward(std::cos(heading_rad), std::sin(heading_rad), std::tan(pitch_rad));
     input.views.push_back(look_at(p, p + forward));
   }
-  input.bounds = scene.mesh.bounds();
-  input.surface = seen_from(scene, positions, o);
+  input.surface = seen_from(scene, rays, positions, o);
 }
 
 /// Around: evenly over a hemisphere, at a distance from which all is in view (Fibonacci's spiral).
@@ -103,7 +85,7 @@ inline void look_from_around(Input& input, const Box3& objects, const Options& o
   input.start = input.views.front();
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1);
   input.bounds = Box3(objects.min() - margin, objects.max() + margin);
-  input.surface = seen_from(*input.scene, positions, o);
+  input.surface = seen_from(*input.scene, RayScene(*input.scene), positions, o);
   std::vector<std::uint8_t> inside;  // the ground goes on beyond
   for (const Eigen::Vector3f& p : input.surface.points) inside.push_back(input.bounds.contains(p.cast<double>()));
   input.surface = input.surface.where(inside);

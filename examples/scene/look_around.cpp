@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <vantage/loop/clocks.hpp>
 #include <vantage/loop/nbv_loop.hpp>
 #include <vantage/mission/progress.hpp>
 #include <vantage/mission/recorder.hpp>
@@ -37,7 +36,7 @@ Mission fly(const Options& o, const Input& input, std::ostream& log, World& worl
   NbvLoop loop{FusedMap(around(input.bounds, o.voxel_m, colour), std::move(truth)), std::move(utility),
                Pool(input.views), std::move(selector)};
 
-  MissionClock clock(o.clock);
+  MissionClock clock(o.clock, o.costs());
   Recorder recorder(
       RecorderConfig{.file = o.out / "mission.json", .config = config(o, input), .seed = o.seed, .with_prior = false},
       Judge{input, o.threshold_m});

@@ -11,6 +11,7 @@ namespace {
 
 void run(const scene::Options& o) {
   scene::validate(o);
+  vantage::make_folder(o.out);
   const scene::Input input = scene::load(o);
   std::cerr << input.name << (input.note.empty() ? "" : ": ") << input.note << '\n';
   scene::fly_mission(o, input, std::cerr);

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include <vantage/io/file.hpp>
-
 #include "explore.hpp"
 #include "reconstruct.hpp"
 
@@ -15,6 +13,7 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
   const auto budget = [](double x) { return std::isfinite(x) ? nlohmann::ordered_json(x) : nlohmann::ordered_json(); };
   nlohmann::ordered_json c = {{"mission", "scene"}, {"input", input.name}, {"method", o.method}};
   c["clock"] = vantage::name_of(o.clock);
+  if (o.clock == ClockKind::modelled) c["modelled_s"] = {o.costs().mapping_s, o.costs().planning_s};
   if (!input.recording) {
     c["camera_px"] = o.pixels;
     c["field_of_view_deg"] = o.field_of_view_deg;
@@ -46,7 +45,6 @@ nlohmann::ordered_json config(const Options& o, const Input& input) {
 }
 
 Mission fly_mission(const Options& o, const Input& input, std::ostream& log) {
-  make_folder(o.out);
   const bool thesis = o.preset == PresetKind::thesis;
   if (!o.explores()) return look_around(o, input, log);
   if (o.reconstructs())

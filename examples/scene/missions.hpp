@@ -29,7 +29,7 @@ struct Mission {
 nlohmann::ordered_json config(const Options& o, const Input& input);
 
 /// Flies the mission that the options name, shows on `log` how it goes, and leaves pictures, maps and the report in the
-/// folder o.out, which it makes.
+/// folder o.out, which must be there.
 Mission fly_mission(const Options& o, const Input& input, std::ostream& log);
 
 /// A look-around from the input's views: all that is seen is fused.

@@ -17,6 +17,7 @@
 #include <vantage/core/error.hpp>
 #include <vantage/core/units.hpp>
 #include <vantage/geometry/camera.hpp>
+#include <vantage/loop/clocks.hpp>
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/mission/command_line.hpp>
 #include <vantage/sim/rgbd_camera.hpp>
@@ -24,6 +25,8 @@
 namespace scene {
 
 using namespace vantage;
+
+inline double tenths(double x) { return std::round(10 * x) / 10; }
 
 inline const std::vector<MethodName>& methods() {
   static const std::vector<MethodName> list = {
@@ -77,6 +80,11 @@ struct Options : MissionOptions {
     return needs_surfels() || is({"fbe", "nbvp", "information_gain"}) || (method == "random" && can_explore());
   }
   [[nodiscard]] double map_voxel() const { return map_voxel_m.value_or(reconstructs() ? 0.2 : 0.05); }
+  /// What a step costs by the modelled clock: with surfels, what the thesis' computer takes (section 6.2.1).
+  [[nodiscard]] ModelledClock::Config costs() const {
+    return reconstructs() ? ModelledClock::Config{.mapping_s = 1, .planning_s = 0.5}
+                          : ModelledClock::Config{.mapping_s = 0.1, .planning_s = 0.1};
+  }
   [[nodiscard]] RgbdConfig sensor() const {
     return {.camera = Camera::from_fov(pixels, pixels, deg(field_of_view_deg)),
             .depth_noise = depth_noise,
@@ -103,8 +111,13 @@ inline void add_options(CLI::App& app, Options& o) {
   app.parse_complete_callback([&app, &o] {
     if (app.count("--method") == 0 && !o.can_explore()) o.method = "max_view_distance";
     if (app.count("--range") == 0 && !o.objects.empty()) o.range_m = 20;  // from where all of them are in view
+    for (const char* name : {"--refine", "--test-views", "--judge-every"})
+      if (app.count(name) != 0 && !o.reconstructs())
+        throw CLI::ValidationError(name, concat("is for a map of surfels, which ", o.method, " does not learn"));
   });
+  const CLI::Validator not_empty([](const std::string& text) { return text.empty() ? "an empty name" : ""; }, "");
   app.add_option("--scene", o.scene, "Where to look around: a folder with a scene.json, or a mesh (OBJ, glTF, PLY)")
+      ->check(not_empty)
       ->type_name("DIR|FILE");
   app.add_option("--object", o.objects, "What to look at: models that are put on a ground plane, at random poses")
       ->type_name("PATH...");
@@ -112,6 +125,7 @@ inline void add_options(CLI::App& app, Options& o) {
       app.add_option("--recording", o.recording,
                      "A recording with depth instead of a simulation: TUM RGB-D, transforms.json, Replica, or colour/ "
                      "depth/ poses.txt camera.txt")
+          ->check(not_empty)
           ->type_name("DIR|FILE");
   app.add_option("--room", o.room, "A furnished room made from a seed")
       ->check(vantage::detail::whole_number())
@@ -151,7 +165,8 @@ inline void add_options(CLI::App& app, Options& o) {
   number("--judge-every", o.judge_every_s, "Mission time between judgements of surfels", 1, 1e6, "SECONDS");
   number("--refine", o.refine_per_s, "Iterations that surfels are trained on for every second of flight", 0, 1000,
          "PER_S");
-  app.add_flag("!--no-views", o.keep_views, "Keep no files of what a simulated camera saw");
+  app.add_flag_callback(
+      "--no-views", [&o] { o.keep_views = false; }, "Keep no files of what a simulated camera saw");
   number("--speed", o.speed_m_s, "How fast an explorer flies", 0.01, 100, "METRES/S");
   number("--threshold", o.threshold_m, "A surface is complete where the reconstruction is nearer", 0.001, 1, "METRES");
 }

@@ -21,7 +21,13 @@
 
 namespace scene {
 
-double tenths(double x) { return std::round(10 * x) / 10; }
+std::string how_it_ended(const Options& o, const MissionRecord& record) {
+  const StepRecord& last = record.steps.back();
+  if (last.index >= o.measurements) return "It ended after as many views as it was told. ";
+  if (last.elapsed_s >= o.most_time_s()) return "It ended when its time was up, after the flight that it was on. ";
+  if (last.travelled_m >= o.travel_m) return "It ended when its way was used up. ";
+  return "It ended by itself: nothing was left to look at. ";
+}
 
 // Of an earlier mission, which may have had more of them.
 void Page::clear() const {

@@ -26,6 +26,7 @@ struct Page {
   void write(const MissionRecord& record);
 };
 
-double tenths(double x);
+/// A sentence.
+std::string how_it_ended(const Options& o, const MissionRecord& record);
 
 }  // namespace scene

@@ -22,9 +22,9 @@ template <class Preset>
 Mission reconstruct(const Options& o, const Input& input, std::ostream& log) {
   Mission mission;
   const std::vector<View> first = turn_around(input.start, deg(o.field_of_view_deg));
-  reconstructor_of(o, input).with<Preset>(o.method, [&](auto loop) {
+  Reconstructor(o, input).with<Preset>(o.method, [&](auto loop) {
     SurfelJudge judge(input, o);
-    Flown flown = fly(o, input, log, loop, first, o.stop_rule(), published_costs, judge);
+    Flown flown = fly(o, input, log, loop, first, o.stop_rule(), judge);
 
     Reconstruction result{.scores = judge.scores(),
                           .test_views = judge.test_views(),

@@ -38,7 +38,8 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
           {"Way", short_number(tenths(last.travelled_m)), "m", concat(plans, " views flown to")},
           {"Surfels", short_number(last.metric("surfels")), "", concat(tenths(last.metric("megabytes")), " MB in all")},
           {"Collisions", short_number(static_cast<double>(referee.collisions())), "",
-           concat("a ball of ", short_number(100 * o.body_radius_m), " cm")}};
+           concat("a ball of ", short_number(100 * o.body_radius_m), " cm; the nearest surface was ",
+                  short_number(std::round(100 * least_clearance_m(record))), " cm from it")}};
 }
 
 Plot curve(const std::vector<Score>& scores, std::string title, std::string unit, double Score::*value) {
@@ -58,9 +59,9 @@ void write_reconstruction(const Options& o, const Input& input, const Referee& r
   Page page{o, {.title = "Reconstructing " + input.name}};
   page.clear();
   Report& report = page.report;
-  report.lead =
-      concat("A robot that knew nothing of ", input.name, " reconstructed it with surfels, method ", o.method, ": ",
-             record.steps.back().index, " views. It flew only where its voxels were free. ", input.note);
+  report.lead = concat("A robot that knew nothing of ", input.name, " reconstructed it with surfels, method ", o.method,
+                       ": ", record.steps.back().index, " views. It flew only where its voxels were free. ",
+                       how_it_ended(o, record), input.note);
   report.figures = key_figures(o, record, result, referee);
   for (std::size_t k = 0; k < result.comparisons.size(); ++k)
     page.add(concat("rendering_", k + 1, ".png"), concat("Test view ", k + 1),

@@ -28,6 +28,7 @@ class NearestPoints {
 
   /// Throws Error if there are no points, 2^32 or more, or if one is not finite. O(n log n), one thread.
   explicit NearestPoints(std::span<const Eigen::Vector3f> points) : cloud_{checked(points)}, tree_(3, cloud_, {16}) {}
+  explicit NearestPoints(std::vector<Eigen::Vector3f>&&) = delete;  // the points must stay
   NearestPoints(const NearestPoints&) = delete;
   NearestPoints& operator=(const NearestPoints&) = delete;
 
