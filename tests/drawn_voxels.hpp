@@ -72,13 +72,7 @@ class DrawnVoxels : public archetype::Map {
     return where(block, [&](const Eigen::Vector3i& v) { return navigable(v); });
   }
 
- private:
-  [[nodiscard]] std::size_t slot(const Eigen::Vector3i& v) const {
-    return (static_cast<std::size_t>(v.z()) * static_cast<std::size_t>(grid_.size().y()) +
-            static_cast<std::size_t>(v.y())) *
-               static_cast<std::size_t>(grid_.size().x()) +
-           static_cast<std::size_t>(v.x());
-  }
+ protected:
   template <class F>
   [[nodiscard]] VoxelBits where(const Eigen::Vector3i& block, F&& f) const {
     VoxelBits bits;
@@ -86,6 +80,14 @@ class DrawnVoxels : public archetype::Map {
       if (f(voxel_of(block, local))) bits.set(local);
     });
     return bits;
+  }
+
+ private:
+  [[nodiscard]] std::size_t slot(const Eigen::Vector3i& v) const {
+    return (static_cast<std::size_t>(v.z()) * static_cast<std::size_t>(grid_.size().y()) +
+            static_cast<std::size_t>(v.y())) *
+               static_cast<std::size_t>(grid_.size().x()) +
+           static_cast<std::size_t>(v.x());
   }
   VoxelGrid grid_;
   double clearance_m_;

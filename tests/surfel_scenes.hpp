@@ -8,6 +8,7 @@
 
 #include <vantage/core/rng.hpp>
 #include <vantage/core/units.hpp>
+#include <vantage/io/csv.hpp>
 #include <vantage/maps/surfel/rasteriser.hpp>
 
 namespace vantage::test {
@@ -32,6 +33,18 @@ inline Surfels any_surfels(std::size_t n, std::uint64_t seed) {
     s.push_back(one);
   }
   s.scale = {0.02F, 0.2F};
+  return s;
+}
+
+/// The surfels of a table: their parameters first, in their order, and their `confidence`.
+inline Surfels surfels_of(const CsvTable& t) {
+  Surfels s;
+  for (std::size_t i = 0; i < t.rows(); ++i) {
+    Surfel one;
+    for (std::size_t p = 0; p < surfel::parameters; ++p) one.parameter[p] = static_cast<float>(t.column(p)[i]);
+    one.confidence = static_cast<float>(t.column("confidence")[i]);
+    s.push_back(one);
+  }
   return s;
 }
 

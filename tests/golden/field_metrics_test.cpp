@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <vantage/eval/field_metrics.hpp>
 
+#include <filesystem>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <vantage/io/csv.hpp>
 
 #include "cell_map.hpp"
+#include "golden.hpp"
 
 namespace vantage {
 namespace {
@@ -17,7 +19,7 @@ struct HotAbove {
   [[nodiscard]] static bool hot(double value) { return value > 0.7; }
 };
 
-test::CellMap read_cells(const std::string& path) {
+test::CellMap read_cells(const std::filesystem::path& path) {
   const CsvTable t = read_csv(path);
   test::CellMap map;
   for (std::size_t i = 0; i < t.rows(); ++i)
@@ -28,10 +30,12 @@ test::CellMap read_cells(const std::string& path) {
   return map;
 }
 
-TEST(GoldenFieldMetrics, ThePublishedCodesNumbers) {
-  const std::string folder = std::string(VANTAGE_GOLDEN_DIR) + "/field/";
-  if (std::string(VANTAGE_GOLDEN_DIR).empty()) GTEST_SKIP() << "VANTAGE_GOLDEN_DIR is not set";
-  const CsvTable table = read_csv(folder + "b_8x8_gt.csv");
+struct GoldenFieldMetrics : test::Golden {
+  GoldenFieldMetrics() : Golden("field") {}
+};
+
+TEST_F(GoldenFieldMetrics, ThePublishedCodesNumbers) {
+  const CsvTable table = read_csv(test::golden("field/b_8x8_gt.csv"));
   Image<double> values(static_cast<Eigen::Index>(table.rows()), static_cast<Eigen::Index>(table.columns()));
   for (std::size_t column = 0; column < table.columns(); ++column)
     for (std::size_t row = 0; row < table.rows(); ++row)
@@ -39,12 +43,12 @@ TEST(GoldenFieldMetrics, ThePublishedCodesNumbers) {
   const ScalarField truth({Eigen::Vector2d(0, 0), Eigen::Vector2d(20, 20)}, values);
   ASSERT_EQ(truth.valid_pixels(), 200 * 200);
 
-  const CsvTable expected = read_csv(folder + "b_8x8_metrics.csv");
+  const CsvTable expected = read_csv(test::golden("field/b_8x8_metrics.csv"));
   ASSERT_EQ(expected.rows(), 2u);
   const std::string mappers[] = {"Ours", "FR-GPF"};  // in the order of the file
   for (std::size_t i = 0; i < expected.rows(); ++i) {
     const auto cells =
-        read_cells(folder + (i == 0 ? "b_8x8_final_cells.csv" : "b_8x8_" + mappers[i] + "_final_cells.csv"));
+        read_cells(test::golden(i == 0 ? "field/b_8x8_final_cells.csv" : "field/b_8x8_FR-GPF_final_cells.csv"));
     const FieldMetrics m = field_metrics(cells, truth, HotAbove{});
     EXPECT_EQ(m.pixels, 40'000u);
     EXPECT_EQ(m.cells, cells.size());

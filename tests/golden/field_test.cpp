@@ -7,7 +7,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,9 +14,7 @@
 #include <vantage/io/csv.hpp>
 #include <vantage/maps/field/methods.hpp>
 
-#ifndef VANTAGE_GOLDEN_DIR
-#define VANTAGE_GOLDEN_DIR ""
-#endif
+#include "golden.hpp"
 
 namespace {
 
@@ -26,17 +23,10 @@ using Reference = preset::reference;
 
 constexpr double belief_tolerance = 2e-12;
 
-std::filesystem::path golden(const std::string& file) {
-  return std::filesystem::path(VANTAGE_GOLDEN_DIR) / "field" / file;
-}
-
-class GoldenField : public testing::Test {
- protected:
-  void SetUp() override {
-    if (std::string(VANTAGE_GOLDEN_DIR).empty() || !std::filesystem::exists(golden("README.md")))
-      GTEST_SKIP() << "VANTAGE_GOLDEN_DIR has no field/ (now \"" << VANTAGE_GOLDEN_DIR << "\")";
-  }
+struct GoldenField : test::Golden {
+  GoldenField() : Golden("field") {}
 };
+CsvTable table(const std::string& name) { return read_csv(test::golden("field/" + name + ".csv")); }
 
 Eigen::MatrixXd square(const CsvTable& t) {
   Eigen::MatrixXd m(static_cast<Eigen::Index>(t.rows()), static_cast<Eigen::Index>(t.columns()));
@@ -53,7 +43,7 @@ void expect_prior(double ours, double theirs, const std::string& what) {
 
 // The images of a mission: footprints from the poses, pixels from the images' rows.
 std::vector<FieldImage> images(const std::string& prefix) {
-  const CsvTable poses = read_csv(golden(prefix + "_poses.csv")), pixels = read_csv(golden(prefix + "_images.csv"));
+  const CsvTable poses = table(prefix + "_poses"), pixels = table(prefix + "_images");
   std::vector<FieldImage> all(poses.rows());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto p = [&](const char* name) { return poses.column(name)[i]; };
@@ -111,7 +101,7 @@ typename Method::Config config(int depth, FieldTask task) {
 }
 
 TEST_F(GoldenField, IntegralKernelOfPairs) {
-  const CsvTable t = read_csv(golden("a_prior_pairs.csv"));
+  const CsvTable t = table("a_prior_pairs");
   const SquaredExponential kernel{.variance = 1, .length_m = 2.36};
   ASSERT_EQ(t.rows(), 20u);
   for (std::size_t r = 0; r < t.rows(); ++r) {
@@ -130,7 +120,7 @@ TEST_F(GoldenField, PriorCovariance) {
     const auto c = config<Ours<Reference>>(depth, FieldTask::mapping);
     const NdTree tree(c.tree);
     const int n = tree.resolution();
-    const Eigen::MatrixXd k = square(read_csv(golden(concat("a_prior_cov_", n, "x", n, ".csv"))));
+    const Eigen::MatrixXd k = square(table(concat("a_prior_cov_", n, "x", n)));
     ASSERT_EQ(k.rows(), n * n);
     const Full<> belief({}, tree, Prior::make<CellAverage>(tree, 0.5, c.kernel));
     for (int i = 0; i < n * n; ++i)
@@ -143,7 +133,7 @@ TEST_F(GoldenField, PriorCovariance) {
 TEST_F(GoldenField, CellMeasurements) {
   const auto c = config<Ours<Reference>>(3, FieldTask::mapping);
   const NdTree tree(c.tree);
-  const CsvTable t = read_csv(golden("b_8x8_cell_measurements.csv"));
+  const CsvTable t = table("b_8x8_cell_measurements");
   const std::vector<FieldImage> all = images("b_8x8");
   std::size_t row = 0;
   for (std::size_t step = 0; step < all.size(); ++step) {
@@ -165,7 +155,7 @@ TEST_F(GoldenField, CellMeasurements) {
 TEST_F(GoldenField, MissionStepByStep) {
   using Method = Ours<Reference>;
   const auto c = config<Method>(3, FieldTask::mapping);
-  const CsvTable t = read_csv(golden("b_8x8_steps.csv"));
+  const CsvTable t = table("b_8x8_steps");
   const std::vector<FieldImage> all = images("b_8x8");
   ASSERT_EQ(all.size(), 16u);
   Method map(c);
@@ -197,9 +187,9 @@ TEST_F(GoldenField, MissionStepByStep) {
       EXPECT_EQ(map.variance(i), belief.variance(i));
     }
   }
-  const CsvTable final_cells = read_csv(golden("b_8x8_final_cells.csv"));
+  const CsvTable final_cells = table("b_8x8_final_cells");
   expect_cells(tree, belief, final_cells, "final", [](std::size_t) { return true; });
-  const Eigen::MatrixXd k = square(read_csv(golden("b_8x8_final_cov.csv")));
+  const Eigen::MatrixXd k = square(table("b_8x8_final_cov"));
   ASSERT_EQ(k.rows(), static_cast<Eigen::Index>(tree.size()));
   for (std::size_t i = 0; i < tree.size(); ++i)
     for (std::size_t j = 0; j < tree.size(); ++j)
@@ -212,8 +202,7 @@ TEST_F(GoldenField, FixedResolutionMission) {
   Method map(config<Method>(3, FieldTask::mapping));
   Rng rng;
   for (const FieldImage& image : images("b_8x8")) map.integrate(image, rng);
-  expect_cells(map.tree(), map.belief(), read_csv(golden("b_8x8_FR-GPF_final_cells.csv")), "FR-GPF",
-               [](std::size_t) { return true; });
+  expect_cells(map.tree(), map.belief(), table("b_8x8_FR-GPF_final_cells"), "FR-GPF", [](std::size_t) { return true; });
 }
 
 // All candidates' reductions of variance and rewards, the views chosen by them, and the cells after each update.
@@ -221,8 +210,8 @@ TEST_F(GoldenField, FixedResolutionMission) {
 TEST_F(GoldenField, Planning) {
   using Method = Ours<Reference>;
   Method map(config<Method>(4, FieldTask::planning));
-  const CsvTable candidates = read_csv(golden("d_plan16_Ours_candidates.csv"));
-  const CsvTable cells = read_csv(golden("d_plan16_Ours_cells.csv"));
+  const CsvTable candidates = table("d_plan16_Ours_candidates");
+  const CsvTable cells = table("d_plan16_Ours_cells");
   const std::vector<FieldImage> all = images("d_plan16_Ours");
   Rng rng;
   View here = nadir(0, 0, 0);

@@ -6,9 +6,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -17,44 +14,30 @@
 #include <vantage/io/npy.hpp>
 #include <vantage/maps/surfel/surfel_loss.hpp>
 
+#include "golden.hpp"
 #include "surfel_images.hpp"
-
-#ifndef VANTAGE_GOLDEN_DIR
-#define VANTAGE_GOLDEN_DIR ""
-#endif
 
 namespace vantage::test {
 namespace {
 
 constexpr int size_px = 32;
 
-std::filesystem::path golden(const std::string& file) {
-  return std::filesystem::path(VANTAGE_GOLDEN_DIR) / "surfel" / "case_B" / file;
-}
 std::vector<Image<double>> images(const std::string& name) {
-  const auto values = read_npy(golden(name + ".npy")).values<double>(name);
+  const auto values = read_npy(golden("surfel/case_B/" + name + ".npy")).values<double>(name);
   std::vector<Image<double>> all(values.size() / (size_px * size_px), Image<double>(size_px, size_px));
   for (std::size_t i = 0; i < values.size(); ++i)
     all[i / (size_px * size_px)].data()[i % (size_px * size_px)] = values[i];
   return all;
 }
 
-class GoldenSurfelLoss : public testing::Test {
- protected:
-  void SetUp() override {
-    if (std::string(VANTAGE_GOLDEN_DIR).empty() || !std::filesystem::exists(golden("loss.csv")))
-      GTEST_SKIP() << "VANTAGE_GOLDEN_DIR has no surfel/case_B (now \"" << VANTAGE_GOLDEN_DIR << "\")";
-  }
+struct GoldenSurfelLoss : Golden {
+  GoldenSurfelLoss() : Golden("surfel/case_B") {}
   static Camera camera() {
     constexpr double f = 27.71281292110204;
     return {size_px, size_px, f, f, size_px / 2 + 0.5, size_px / 2 + 0.5};
   }
-  static std::map<std::string, double> losses() {
-    std::ifstream file(golden("loss.csv"));
-    std::map<std::string, double> all;
-    for (std::string line; std::getline(file, line);)
-      all[line.substr(0, line.find(','))] = std::stod(line.substr(line.find(',') + 1));
-    return all;
+  static double published(const std::string& term) {
+    return named_numbers(text_of(golden("surfel/case_B/loss.csv"))).at(term).at(0);
   }
   template <class T>
   static SurfelImages<T> drawn() {
@@ -70,15 +53,14 @@ class GoldenSurfelLoss : public testing::Test {
 };
 
 TEST_F(GoldenSurfelLoss, TermsAndTheirSum) {
-  const auto expected = losses();
   SurfelGradientImages<double> gradient;
   const SurfelLoss<EdgeAwareVariation, double> loss;
   const LossTerms terms = loss(camera(), drawn<double>(), target<double>(), gradient);
-  EXPECT_NEAR(terms.colour, expected.at("activegs_lc"), 1e-12);
-  EXPECT_NEAR(terms.depth, expected.at("activegs_ld"), 1e-12);
-  EXPECT_NEAR(terms.consistency, expected.at("activegs_cons"), 1e-12);
-  EXPECT_NEAR(terms.smoothness, expected.at("activegs_tv"), 1e-12);
-  EXPECT_NEAR(terms.total(loss.weights()), expected.at("activegs"), 1e-12);
+  EXPECT_NEAR(terms.colour, published("activegs_lc"), 1e-12);
+  EXPECT_NEAR(terms.depth, published("activegs_ld"), 1e-12);
+  EXPECT_NEAR(terms.consistency, published("activegs_cons"), 1e-12);
+  EXPECT_NEAR(terms.smoothness, published("activegs_tv"), 1e-12);
+  EXPECT_NEAR(terms.total(loss.weights()), published("activegs"), 1e-12);
 }
 
 template <class T>
@@ -103,11 +85,10 @@ TEST_F(GoldenSurfelLoss, GradientsByTheImages) {
 }
 
 TEST_F(GoldenSurfelLoss, InFloatAsWell) {
-  const auto expected = losses();
   SurfelGradientImages<float> gradient;
   const SurfelLoss<> loss;
   const LossTerms terms = loss(camera(), drawn<float>(), target<float>(), gradient);
-  EXPECT_NEAR(terms.total(loss.weights()), expected.at("activegs"), 2e-6);
+  EXPECT_NEAR(terms.total(loss.weights()), published("activegs"), 2e-6);
   compare(gradient, 1e-3);
 }
 

@@ -9,8 +9,6 @@
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <string>
 #include <vector>
@@ -20,9 +18,8 @@
 #include <vantage/maps/surfel/reference_rasteriser.hpp>
 #include <vantage/maps/surfel/tile_rasteriser.hpp>
 
-#ifndef VANTAGE_GOLDEN_DIR
-#define VANTAGE_GOLDEN_DIR ""
-#endif
+#include "golden.hpp"
+#include "surfel_scenes.hpp"
 
 namespace {
 
@@ -35,39 +32,15 @@ struct Case {
   Surfels surfels;
   RasterView view;
 
-  explicit Case(const std::string& name) : folder(std::filesystem::path(VANTAGE_GOLDEN_DIR) / "surfel" / name) {
-    const CsvTable params = read_csv(folder / "params.csv");
-    for (std::size_t i = 0; i < params.rows(); ++i) {
-      Surfel s;
-      for (std::size_t p = 0; p < surfel::parameters; ++p) s.parameter[p] = static_cast<float>(params.column(p)[i]);
-      s.confidence = static_cast<float>(params.column("confidence")[i]);
-      surfels.push_back(s);
-    }
-    std::ifstream file(folder / "camera.csv");
-    for (std::string line; std::getline(file, line);) {
-      std::vector<double> values;
-      const std::string key = line.substr(0, line.find(','));
-      for (std::size_t at = line.find(','); at != std::string::npos; at = line.find(',', at + 1))
-        values.push_back(std::stod(line.substr(at + 1)));
-      set(key, values);
-    }
-  }
-  void set(const std::string& key, const std::vector<double>& values) {
-    Camera& c = view.camera;
-    if (key == "W") c.width = static_cast<int>(values[0]), c.cx = values[0] / 2;
-    if (key == "H") c.height = static_cast<int>(values[0]), c.cy = values[0] / 2;
-    if (key == "fx") c.fx = values[0];
-    if (key == "fy") c.fy = values[0];
-    if (key == "scale_factor") surfels.scale.unit_m = static_cast<float>(values[0]);
-    if (key == "scale_max") surfels.scale.max_m = static_cast<float>(values[0]);
-    for (std::size_t k = 0; k < 3 && key == "bg"; ++k) view.background[k] = static_cast<float>(values[k]);
-    const bool is_pose = key.rfind("c2w", 0) == 0;
-    if (!is_pose) return;
-    if (values.size() == 16)
-      for (std::size_t k = 0; k < 16; ++k)
-        view.view.T_W_C.matrix()(static_cast<Eigen::Index>(k / 4), static_cast<Eigen::Index>(k % 4)) = values[k];
-    else
-      ADD_FAILURE() << "a pose of " << values.size() << " numbers";
+  explicit Case(const std::string& name)
+      : folder(test::golden("surfel/" + name)), surfels(test::surfels_of(read_csv(folder / "params.csv"))) {
+    const auto rows = test::named_numbers(test::text_of(folder / "camera.csv"));
+    const auto number = [&](const char* key) { return rows.at(key).at(0); };
+    const double w = number("W"), h = number("H");
+    view.camera = {static_cast<int>(w), static_cast<int>(h), number("fx"), number("fy"), w / 2, h / 2};
+    view.view = test::poses(rows.at("c2w_rowmajor")).at(0);
+    for (std::size_t k = 0; k < 3; ++k) view.background[k] = static_cast<float>(rows.at("bg").at(k));
+    surfels.scale = {static_cast<float>(number("scale_factor")), static_cast<float>(number("scale_max"))};
   }
   [[nodiscard]] std::vector<double> npy(const std::string& name) const {
     return read_npy(folder / (name + ".npy")).values<double>(name);
@@ -108,12 +81,8 @@ void expect_image(const Case& c, const Image<float>& ours, const std::string& na
   }
 }
 
-class GoldenSurfels : public testing::Test {
- protected:
-  void SetUp() override {
-    if (!std::filesystem::exists(std::filesystem::path(VANTAGE_GOLDEN_DIR) / "surfel" / "case_A" / "params.csv"))
-      GTEST_SKIP() << "VANTAGE_GOLDEN_DIR has no surfel/ (now \"" << VANTAGE_GOLDEN_DIR << "\")";
-  }
+struct GoldenSurfels : test::Golden {
+  GoldenSurfels() : Golden("surfel/case_A") {}
 };
 
 template <class Raster>
@@ -230,8 +199,7 @@ template <class S>
 void expect_projection() {
   for (const char* name : {"case_A", "case_B"}) {
     const Case c(name);
-    std::ifstream file(c.folder / "preprocess.csv");
-    const std::string text(std::istreambuf_iterator<char>(file), {});
+    const std::string text = test::text_of(c.folder / "preprocess.csv");
     const CsvTable theirs = parse_csv(std::regex_replace(text, std::regex("nan"), ""));
     const Projector<S> camera(c.view, c.surfels.scale);
     for (std::size_t i = 0; i < c.surfels.size(); ++i) {

@@ -3,11 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -18,6 +16,8 @@
 #include <vantage/selector/minus_cost.hpp>
 #include <vantage/selector/per_flight_time.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
+
+#include "golden.hpp"
 
 namespace vantage {
 namespace {
@@ -179,37 +179,29 @@ TEST(Router, ThatBreaksItsPromiseIsFound) {
   EXPECT_THROW(TravelTradeoff<>({.delta = infinity}), Error);
 }
 
-TEST(PerFlightTime, ChoosesAsThePublishedPlanner) {
-  const std::string folder = VANTAGE_GOLDEN_DIR;
-  if (folder.empty()) GTEST_SKIP() << "no golden data (VANTAGE_GOLDEN_DIR)";
-  const auto rows = [&](const std::string& name) {
-    std::ifstream file(folder + "/field/" + name);
-    std::vector<std::vector<double>> all;
-    std::string line;
-    std::getline(file, line);
-    while (std::getline(file, line)) {
-      std::istringstream cells(line);
-      all.emplace_back();
-      for (std::string cell; std::getline(cells, cell, ',');) all.back().push_back(std::stod(cell));
-    }
-    return all;
+struct GoldenPerFlightTime : test::Golden {
+  GoldenPerFlightTime() : Golden("field") {}
+};
+
+TEST_F(GoldenPerFlightTime, ChoosesAsThePublishedPlanner) {
+  const CsvTable t = read_csv(test::golden("field/d_plan16_Ours_candidates.csv")),
+                 poses = read_csv(test::golden("field/d_plan16_Ours_poses.csv"));
+  const auto view = [](const CsvTable& of, std::size_t row) {
+    return nadir(of.column("x")[row], of.column("y")[row], of.column("h")[row]);
   };
-  // step,x,y,h,hs_trace_before,hs_trace_after,flight_time,reward; the start is (0, 0, 0)
-  std::map<int, Candidates> steps;
-  for (const auto& r : rows("d_plan16_Ours_candidates.csv")) {
-    Candidates& c = steps[static_cast<int>(r[0])];
-    c.views.push_back(nadir(r[1], r[2], r[3]));
-    c.utilities.push_back(r[4] - r[5]);
+  std::map<std::size_t, Candidates> steps;  // the start is (0, 0, 0)
+  for (std::size_t i = 0; i < t.rows(); ++i) {
+    Candidates& c = steps[static_cast<std::size_t>(t.column("step")[i])];
+    c.views.push_back(view(t, i));
+    c.utilities.push_back(t.column("hs_trace_before")[i] - t.column("hs_trace_after")[i]);
   }
-  const auto poses = rows("d_plan16_Ours_poses.csv");
   ASSERT_EQ(steps.size(), 4u);
-  ASSERT_EQ(poses.size(), 4u);
+  ASSERT_EQ(poses.rows(), 4u);
   View here;
   for (const auto& [step, c] : steps) {
     const auto d = select(PerFlightTime(PerFlightTime::Config::reference()), c, here);
     ASSERT_TRUE(d);
-    const auto& pose = poses[static_cast<std::size_t>(step)];
-    here = nadir(pose[1], pose[2], pose[3]);
+    here = view(poses, step);
     EXPECT_TRUE(same_place(c.views[d->index], here)) << "step " << step;
   }
 }
