@@ -283,11 +283,7 @@ class CollisionChecker {
   [[nodiscard]] PathCheck check(Views path) const;
 
  private:
-  static bool is_pose(const Eigen::Isometry3d& T) {
-    const Eigen::Matrix3d r = T.linear();
-    return T.matrix().allFinite() && detail::within_reach(T.translation()) && (r.transpose() * r).isIdentity(1e-6) &&
-           r.determinant() > 0;
-  }
+  static bool is_pose(const Eigen::Isometry3d& T) { return is_rigid(T) && detail::within_reach(T.translation()); }
   /// Whether something of the scene is in the solid body.
   [[nodiscard]] CollisionCheck inside(const Eigen::Isometry3d& T_W_R) const {
     if (!body_.solid) return {};
