@@ -17,7 +17,8 @@
 namespace vantage {
 
 /// Whether a robot's body is clear of everything at a pose, and all the way between two, as a RigidMotion goes.
-/// Whatever a library could not decide is not free. May be called concurrently by others, not by RrtStar.
+/// Whatever a library could not decide is not free. May be called concurrently by others, not by RrtStar. Among the
+/// voxels of a map: BoxInVoxels; in a scene's mesh: CollisionChecker.
 template <class C>
 concept CollisionFree = requires(const C c, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   { c.is_free(from) } -> std::convertible_to<bool>;
