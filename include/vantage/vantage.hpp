@@ -110,6 +110,7 @@
 #include <vantage/maps/voxel/voxel_map.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
 #include <vantage/planning/a_star.hpp>
+#include <vantage/planning/box_in_voxels.hpp>
 #include <vantage/planning/heading.hpp>
 #include <vantage/planning/lattice_moves.hpp>
 #include <vantage/planning/line_of_sight.hpp>

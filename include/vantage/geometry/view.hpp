@@ -66,12 +66,18 @@ inline double distance_m(const View& a, const View& b) { return (a.position() - 
 /// Whether two views are taken from the same point, to a nanometre; orientation does not count.
 inline bool same_place(const View& a, const View& b) { return distance_m(a, b) <= 1e-9; }
 
-/// Throws Error unless the pose is finite and its linear part a rotation (to 1e-6).
+/// Whether a pose is finite and its linear part a rotation (to 1e-6): no shear, no scale, no mirror.
+inline bool is_rigid(const Eigen::Isometry3d& pose) {
+  if (!pose.matrix().allFinite()) return false;
+  const Eigen::Vector3d x = pose.linear().col(0), y = pose.linear().col(1), z = pose.linear().col(2);
+  const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= 1e-6; };
+  return unit(x) && unit(y) && unit(z) && std::abs(x.dot(y)) <= 1e-6 && (x.cross(y) - z).norm() <= 1e-6;
+}
+
+/// Throws Error unless the view's pose is_rigid.
 inline void check_view(const View& view, std::string_view where) {
   if (!view.T_W_C.matrix().allFinite()) throw Error(where, "the view's pose is not finite", "finite coefficients");
-  const Eigen::Vector3d x = view.T_W_C.linear().col(0), y = view.T_W_C.linear().col(1), z = view.forward();
-  const auto unit = [](const Eigen::Vector3d& v) { return std::abs(v.norm() - 1) <= 1e-6; };
-  if (!unit(x) || !unit(y) || !unit(z) || (x.cross(y) - z).norm() > 1e-6)
+  if (!is_rigid(view.T_W_C))
     throw Error(where, "the view's pose is no rigid transform", "a rotation with determinant 1");
 }
 

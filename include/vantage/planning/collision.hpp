@@ -121,6 +121,14 @@ inline void check_collision_mesh(const TriangleMesh& mesh, std::string_view wher
         throw Error(where, concat("vertex ", v, " is (", mesh.vertices[v].transpose(), ")"), "coordinates up to 1e6 m");
 }
 
+/// f(), which asks FCL; failed if that throws, as FCL's own logic errors and libccd's failures do.
+template <class F>
+CollisionCheck guarded(F&& f) {
+  try {
+    return f();
+  } catch (const std::exception&) { return {CollisionVerdict::failed}; }
+}
+
 /// A shape as FCL has it.
 struct RobotBody {
   std::shared_ptr<const Bvh> surface;         ///< what distances are measured to
@@ -275,35 +283,28 @@ class CollisionChecker {
   [[nodiscard]] PathCheck check(Views path) const;
 
  private:
-  static bool is_pose(const Eigen::Isometry3d& T) {
-    const Eigen::Matrix3d r = T.linear();
-    return T.matrix().allFinite() && detail::within_reach(T.translation()) && (r.transpose() * r).isIdentity(1e-6) &&
-           r.determinant() > 0;
-  }
+  static bool is_pose(const Eigen::Isometry3d& T) { return is_rigid(T) && detail::within_reach(T.translation()); }
   /// Whether something of the scene is in the solid body.
   [[nodiscard]] CollisionCheck inside(const Eigen::Isometry3d& T_W_R) const {
     if (!body_.solid) return {};
-    try {
+    return detail::guarded([&]() -> CollisionCheck {
       const fcl::CollisionRequestd request;
       fcl::CollisionResultd result;
       fcl::collide(scene_.bvh_.get(), Eigen::Isometry3d::Identity(), body_.solid.get(), T_W_R, request, result);
       return {result.isCollision() ? CollisionVerdict::contact : CollisionVerdict::free};
-    } catch (const std::exception&) {  // FCL's own logic errors, for one
-      return {CollisionVerdict::failed};
-    }
+    });
   }
   /// From the scene to the body's surface.
   [[nodiscard]] CollisionCheck distance(const Eigen::Isometry3d& T_W_R) const {
-    double d = 0;
-    try {
+    return detail::guarded([&]() -> CollisionCheck {
       const fcl::DistanceRequestd request;
       fcl::DistanceResultd result;
       fcl::distance(scene_.bvh_.get(), Eigen::Isometry3d::Identity(), body_.surface.get(), T_W_R, request, result);
-      d = result.min_distance - body_.around_m;
-    } catch (const std::exception&) { return {CollisionVerdict::failed}; }
-    if (d <= detail::touching_m) return {CollisionVerdict::contact};
-    if (!(d < 1e9)) return {CollisionVerdict::failed};
-    return {CollisionVerdict::free, d};
+      const double d = result.min_distance - body_.around_m;
+      if (d <= detail::touching_m) return {CollisionVerdict::contact};
+      if (!(d < 1e9)) return {CollisionVerdict::failed};
+      return {CollisionVerdict::free, d};
+    });
   }
 
   CollisionScene scene_;

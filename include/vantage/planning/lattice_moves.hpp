@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 // The 26 moves from a voxel to its neighbours, and which of them a shortest path needs after which.
-namespace vantage {
+namespace vantage::detail {
 
 /// A move (x, y, z), each of -1, 0 and 1, has the index x + 1 + 3 (y + 1) + 9 (z + 1); 13 is to stay.
 inline constexpr std::size_t stay = 13, moves = 27;
@@ -103,4 +103,4 @@ class LatticeMoves {
   std::array<std::array<MoveSet, moves>, moves> needless_{};
 };
 
-}  // namespace vantage
+}  // namespace vantage::detail

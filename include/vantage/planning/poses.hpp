@@ -17,18 +17,19 @@
 namespace vantage {
 
 /// Whether a robot's body is clear of everything at a pose, and all the way between two, as a RigidMotion goes.
-/// Whatever a library could not decide is not free. May be called concurrently by others, not by RrtStar.
+/// Whatever a library could not decide is not free. May be called concurrently by others, not by RrtStar. Among the
+/// voxels of a map: BoxInVoxels; in a scene's mesh: CollisionChecker.
 template <class C>
 concept CollisionFree = requires(const C c, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   { c.is_free(from) } -> std::convertible_to<bool>;
   { c.is_free(from, to) } -> std::convertible_to<bool>;
 };
 
-/// A space of poses: how many dimensions it has, how large it is [m^dimension], and a uniform draw. A turn by an angle
-/// counts as long as a way of `metres_per_rad` times it.
+/// A space of poses: how many dimensions it has, how large it is in these (> 0) [m^dimension], and a uniform draw. A
+/// turn by an angle counts as long as a way of `metres_per_rad` times it.
 template <class S>
 concept PoseSpace = requires(const S s, Rng& rng) {
-  { S::dimension } -> std::convertible_to<int>;
+  { s.dimension() } -> std::convertible_to<int>;
   { s.metres_per_rad } -> std::convertible_to<double>;
   { s.volume() } -> std::convertible_to<double>;
   { s.draw(rng) } -> std::same_as<Eigen::Isometry3d>;
@@ -53,12 +54,27 @@ inline void check_pose_space(std::string_view where, const Box3& bounds, double 
   check.done();
 }
 
-/// Places in a box and turns about the world's z axis: robots that stay upright.
+namespace detail {
+
+/// Along how many axes a box has extent (a nanometre or more), and its length, area or volume in these [m^axes].
+struct Extent {
+  int axes = 0;
+  double measure = 1;
+  explicit Extent(const Box3& box) {
+    for (int i = 0; i < 3; ++i)
+      if (const double length_m = box.max()[i] - box.min()[i]; length_m >= 1e-9) ++axes, measure *= length_m;
+  }
+};
+
+}  // namespace detail
+
+/// Places in a box and turns about the world's z axis: robots that stay upright. A box that is flat, as that of a robot
+/// on the ground, makes a space of fewer dimensions.
 struct UprightPoses {
   Box3 bounds;                  ///< [m]
   double metres_per_rad = 0.3;  ///< > 0
-  static constexpr int dimension = 4;
-  [[nodiscard]] double volume() const { return bounds.volume() * 2 * std::numbers::pi * metres_per_rad; }
+  [[nodiscard]] int dimension() const { return detail::Extent(bounds).axes + 1; }
+  [[nodiscard]] double volume() const { return detail::Extent(bounds).measure * 2 * std::numbers::pi * metres_per_rad; }
   [[nodiscard]] Eigen::Isometry3d draw(Rng& rng) const {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     for (int i = 0; i < 3; ++i) pose.translation()[i] = rng.uniform(bounds.min()[i], bounds.max()[i]);
@@ -68,13 +84,13 @@ struct UprightPoses {
   void check() const { check_pose_space("UprightPoses", bounds, metres_per_rad); }
 };
 
-/// Places in a box and all rotations: SE(3).
+/// Places in a box, which may be flat, and all rotations: SE(3).
 struct FreePoses {
   Box3 bounds;                  ///< [m]
   double metres_per_rad = 0.3;  ///< > 0
-  static constexpr int dimension = 6;
+  [[nodiscard]] int dimension() const { return detail::Extent(bounds).axes + 3; }
   [[nodiscard]] double volume() const {
-    return bounds.volume() * 8 * std::numbers::pi * std::numbers::pi * std::pow(metres_per_rad, 3);
+    return detail::Extent(bounds).measure * 8 * std::numbers::pi * std::numbers::pi * std::pow(metres_per_rad, 3);
   }
   /// The rotation uniform (Shoemake, "Uniform random rotations", Graphics Gems III, 1992).
   [[nodiscard]] Eigen::Isometry3d draw(Rng& rng) const {

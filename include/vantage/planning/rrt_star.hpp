@@ -30,11 +30,12 @@ struct PosePath {
 /// A sampling planner for robots that are no spheres: RRT* (Karaman and Frazzoli, "Sampling-based algorithms for
 /// optimal motion planning", IJRR 2011, algorithm 6). A tree grows from the start towards random poses; each new node
 /// takes the best parent within a radius, and becomes the parent of those there that it offers a shorter way. The
-/// radius shrinks as gamma (log n / n)^(1/d), with the gamma of their theorem 38, so that the cost tends to the least
-/// one. Poses that cannot be on a shorter way than the best one found are left out. Deterministic for a given `rng`.
+/// radius shrinks as gamma (log n / n)^(1/d), with the gamma of their theorem 38 for the volume of the space and its d
+/// dimensions, so that the cost tends to the least one. Poses that cannot be on a shorter way than the best one found
+/// are left out. Deterministic for a given `rng`.
 ///
-/// Cost: `samples` draws, each one search through all nodes and a few calls of the
-/// collision check, which as a rule is most of the time. const members run concurrently.
+/// Cost: `samples` draws, each one search through all nodes and a few calls of the collision check, which as a rule is
+/// most of the time. const members run concurrently.
 template <PoseSpace Space = UprightPoses>
 class RrtStar {
  public:
@@ -193,7 +194,7 @@ class RrtStar {
       best.nodes.emplace_back(node, rest_m);
   }
   [[nodiscard]] double radius_m(std::size_t n) const {
-    constexpr double d = Space::dimension;
+    const double d = config_.space.dimension();
     const double ball = std::pow(std::numbers::pi, d / 2) / std::tgamma(d / 2 + 1);
     const double gamma = 2 * std::pow((1 + 1 / d) * config_.space.volume() / ball, 1 / d);
     const double count = static_cast<double>(n + 1);

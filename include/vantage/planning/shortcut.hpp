@@ -39,6 +39,11 @@ std::vector<Eigen::Vector3d> shortcut(const P& passable, std::span<const Eigen::
 /// A router whose paths are those of another, straightened: lengths_m() are the lengths of the straightened paths, so
 /// that a selector weighs what the robot will fly. (Chapter 6 weighs the lengths of the graph: that is the other router
 /// alone.) Goals are straightened concurrently. The other router also says ways() and passable(), as AStar does.
+///
+/// The voxels that a straightened leg touches are navigable, so that the map's clearance r holds at their centres. No
+/// point of a voxel of diagonal d is farther than d / 2 from its centre: on the leg, r - d / 2 is left, 15.7 of 20 cm
+/// in voxels of 5 cm. A leg that stays keeps what the other router says, AStar's no less. In the robot's own ball,
+/// nothing is left.
 template <class Router = AStar>
 class Shortcut {
  public:

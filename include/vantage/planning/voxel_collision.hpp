@@ -13,6 +13,7 @@
 #include <vantage/concepts/map.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/geometry/box.hpp>
+#include <vantage/geometry/view.hpp>
 #include <vantage/geometry/voxel_bits.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
 #include <vantage/planning/rigid_motion.hpp>
@@ -80,9 +81,7 @@ struct OrientedBox {
   Eigen::Vector3d half_extents_m;
 
   [[nodiscard]] bool valid() const {
-    const Eigen::Matrix3d r = pose.linear();
-    return pose.matrix().allFinite() && (r.transpose() * r).isIdentity(1e-6) && half_extents_m.allFinite() &&
-           (half_extents_m.array() >= 0).all();
+    return is_rigid(pose) && half_extents_m.allFinite() && (half_extents_m.array() >= 0).all();
   }
   [[nodiscard]] Box3 bounds() const {
     const Eigen::Vector3d reach = pose.linear().cwiseAbs() * half_extents_m;

@@ -59,13 +59,13 @@ class VoxelSearch {
   [[nodiscard]] std::vector<Eigen::Vector3i> path(const Eigen::Vector3i& goal) const {
     if (cost_of(goal) == unreached) return {};
     std::vector<Eigen::Vector3i> voxels = {goal};
-    std::size_t last = stay;
+    std::size_t last = detail::stay;
     for (;;) {
       const Eigen::Vector3i& voxel = voxels.back();
       const MoveSet in = labels_of(block_of(voxel))->in[local_of(voxel)];
-      if (in == MoveSet{1} << stay) break;
+      if (in == MoveSet{1} << detail::stay) break;
       if ((in >> last & 1) == 0) last = static_cast<std::size_t>(std::countr_zero(in));
-      voxels.push_back(voxel - move_at(last));
+      voxels.push_back(voxel - detail::move_at(last));
     }
     std::reverse(voxels.begin(), voxels.end());
     return voxels;
@@ -75,6 +75,7 @@ class VoxelSearch {
 
  private:
   using Cost = std::uint64_t;
+  using MoveSet = detail::MoveSet;
   static constexpr Cost unreached = std::numeric_limits<Cost>::max();
   static constexpr std::size_t block_voxels = 512;
 
@@ -83,7 +84,7 @@ class VoxelSearch {
     std::array<MoveSet, block_voxels> in{};                // the moves by which shortest paths come here
     VoxelBits waiting{};                                   // has something new to tell its neighbours
     std::array<std::array<std::uint16_t, 10>, 10> open{};  // passable, one voxel beyond the block: bit x of row z, y
-    std::array<std::uint32_t, moves> neighbour{};          // blocks around
+    std::array<std::uint32_t, detail::moves> neighbour{};  // blocks around
     bool surrounded = false;                               // the two above are known
     bool in_goals_box = false;
     Labels() { cost.fill(unreached); }
@@ -108,19 +109,19 @@ class VoxelSearch {
       if (edge[axis] > 0) shortest_m = std::min(shortest_m, edge[axis]);
     if (!std::isfinite(shortest_m)) shortest_m = 1;
     unit_m_ = std::ldexp(shortest_m, -bucket_bits);
-    for (std::size_t i = 0; i < moves; ++i) {
-      const Eigen::Vector3i move = move_at(i);
+    for (std::size_t i = 0; i < detail::moves; ++i) {
+      const Eigen::Vector3i move = detail::move_at(i);
       const auto cost =
           static_cast<Cost>(std::llround(move.template cast<double>().cwiseProduct(edge).norm() / unit_m_));
       move_cost_[i] = cost;
-      kind_cost_[kind_of_move(move)] = cost;
+      kind_cost_[detail::kind_of_move(move)] = cost;
     }
     // What is put in a bucket is at most the longest move there and back (by cost and by heuristic) beyond the current.
     buckets_.resize(std::bit_ceil(static_cast<std::size_t>(2 * (kind_cost_[7] >> bucket_bits) + 4)));
   }
 
   void run(const Eigen::Vector3i& from, std::vector<Eigen::Vector3i>& wanted) {
-    reach(block_at(block_of(from)), local_of(from), 0, stay);
+    reach(block_at(block_of(from)), local_of(from), 0, detail::stay);
     for (current_ = to_the_goals(from) >> bucket_bits; waiting_ > 0; ++current_) {
       // First come, first served: towards the goals the heuristic leaves all of a way in one bucket, where voxels
       // told last, expanded first, would be told better again and again.
@@ -151,9 +152,9 @@ class VoxelSearch {
     MoveSet open = 0;
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t j = 0; j < 3; ++j) open |= (here.open[z + k][y + j] >> x & 7u) << (3 * j + 9 * k);
-    open &= all_moves;
+    open &= detail::all_moves;
     const Cost cost = here.cost[local];
-    for_each_move(table_.after(here.in[local], open), [&](std::size_t i) {
+    detail::for_each_move(table_.after(here.in[local], open), [&](std::size_t i) {
       const std::size_t nx = x + i % 3 + 7, ny = y + i / 3 % 3 + 7, nz = z + i / 9 + 7;  // 8 more than in this block
       const std::size_t side = (nx >> 3) + 3 * (ny >> 3) + 9 * (nz >> 3);
       reach(here.neighbour[side], (nx & 7) | (ny & 7) << 3 | (nz & 7) << 6, cost + move_cost_[i], i);
@@ -190,7 +191,7 @@ class VoxelSearch {
   [[nodiscard]] Cost to_the_goals(const Eigen::Vector3i& voxel) const {
     Eigen::Vector3i steps = (goals_low_ - voxel).cwiseMax(voxel - goals_high_).cwiseMax(0);
     Cost cost = 0;
-    while (const unsigned axes = kind_of_move(steps)) {  // diagonally along all axes that are left
+    while (const unsigned axes = detail::kind_of_move(steps)) {  // diagonally along all axes that are left
       int n = std::numeric_limits<int>::max();
       for (const int s : steps)
         if (s > 0) n = std::min(n, s);
@@ -209,8 +210,8 @@ class VoxelSearch {
   void surround(std::uint32_t b) {
     Labels& here = *blocks_[b].labels;
     const Eigen::Vector3i index = blocks_[b].index, last = block_of(grid_.size() - Eigen::Vector3i::Ones());
-    for (std::size_t i = 0; i < moves; ++i) {
-      const Eigen::Vector3i side = move_at(i), other = index + side;
+    for (std::size_t i = 0; i < detail::moves; ++i) {
+      const Eigen::Vector3i side = detail::move_at(i), other = index + side;
       if ((other.array() < 0).any() || (other.array() > last.array()).any()) continue;
       here.neighbour[i] = block_at(other);
       const VoxelBits& bits = blocks_[here.neighbour[i]].passable;
@@ -237,11 +238,11 @@ class VoxelSearch {
   }
 
   static constexpr int bucket_bits = 36;
-  const LatticeMoves& table_ = LatticeMoves::table();
+  const detail::LatticeMoves& table_ = detail::LatticeMoves::table();
   P passable_;
   VoxelGrid grid_;
   double unit_m_ = 1;
-  std::array<Cost, moves> move_cost_{};
+  std::array<Cost, detail::moves> move_cost_{};
   std::array<Cost, 8> kind_cost_{};
   Eigen::Vector3i goals_low_ = Eigen::Vector3i::Zero(), goals_high_ = Eigen::Vector3i::Zero();
   std::vector<Block> blocks_;

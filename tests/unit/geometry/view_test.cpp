@@ -78,6 +78,9 @@ TEST(View, CheckRefusesWhatIsNoPose) {
   v = nadir(0, 0, 1);
   v.T_W_C.linear().setZero();
   EXPECT_THROW(check_view(v, "test"), Error);
+  v = nadir(0, 0, 1);
+  v.T_W_C.linear().col(0) << std::cos(1e-3), std::sin(1e-3), 0;  // a shear that keeps all lengths
+  EXPECT_THROW(check_view(v, "test"), Error);
 }
 
 TEST(View, SavesAndLoadsItself) {

@@ -13,27 +13,20 @@
 #include <vantage/planning/collision.hpp>
 #include <vantage/planning/rrt_star.hpp>
 
-#include "message_of.hpp"
+#include "collision_scenes.hpp"
 #include "random_pose.hpp"
 
 namespace vantage {
 namespace {
 
+using test::add_triangle;
+using test::at;
+using test::corners_of;
+using test::ground;
+using test::shapes_of_half_a_metre;
+using test::surface_of;
 using Verdict = CollisionVerdict;
 
-Eigen::Isometry3d at(double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); }
-void add_triangle(TriangleMesh& mesh, const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
-  const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
-  for (const Eigen::Vector3d& p : {a, b, c}) mesh.vertices.push_back(p.cast<float>());
-  mesh.triangles.push_back({n, n + 1, n + 2});
-}
-// The plane z = 0 from -10 to 10 m.
-TriangleMesh ground() {
-  TriangleMesh mesh;
-  mesh.vertices = {{-10, -10, 0}, {10, -10, 0}, {10, 10, 0}, {-10, 10, 0}};
-  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  return mesh;
-}
 TriangleMesh soup(Rng& rng, int triangles, double reach, double size) {
   TriangleMesh mesh;
   for (int i = 0; i < triangles; ++i) {
@@ -80,23 +73,6 @@ double triangle_distance(const Triangle3& a, const Triangle3& b) {
 // Of a box, from its centre.
 bool holds(const Eigen::Vector3d& half, const Eigen::Vector3d& p) {
   return (p.cwiseAbs().array() <= half.array()).all();
-}
-std::vector<Eigen::Vector3d> corners_of(const Eigen::Vector3d& half) {
-  std::vector<Eigen::Vector3d> corners;
-  for (int k = 0; k < 8; ++k)
-    corners.push_back(half.cwiseProduct(Eigen::Vector3d(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1)));
-  return corners;
-}
-TriangleMesh surface_of(const ConvexHull& hull) {
-  TriangleMesh mesh;
-  for (const Eigen::Vector3d& v : hull.vertices) mesh.vertices.push_back(v.cast<float>());
-  mesh.triangles = hull.triangles;
-  return mesh;
-}
-std::vector<RobotShape> shapes_of_half_a_metre() {
-  const auto corners = corners_of(Eigen::Vector3d::Constant(0.5));
-  return {shape::Sphere{0.5}, shape::Box{Eigen::Vector3d::Constant(0.5)}, shape::Convex{corners},
-          shape::Mesh{surface_of(convex_hull(corners))}};
 }
 
 TEST(Collision, ClearanceAboveTheGround) {
@@ -194,6 +170,109 @@ TEST(Collision, WhatASolidHoldsItMeets) {
 
 TEST(Collision, AMotionThroughAWallIsFoundHoweverThinTheRobot) {
   TriangleMesh wall;
+  add_triangle(wall, {1, -5, -5}, {1, 5, -5}, {1, 0, 5});
+  const CollisionScene scene(wall);
+  std::vector<RobotShape> shapes = shapes_of_half_a_metre();
+  shapes.emplace_back(shape::Sphere{0});
+  shapes.emplace_back(shape::Box{Eigen::Vector3d::Zero()});
+  for (const RobotShape& shape : shapes) {
+    const CollisionChecker checker(scene, shape);
+    ASSERT_TRUE(checker.check(at(0, 0, 0)).free());
+    ASSERT_TRUE(checker.check(at(7.3, 0, 0)).free());
+    const CollisionCheck c = checker.check(at(0, 0, 0), at(7.3, 0, 0));
+    EXPECT_EQ(c.verdict, Verdict::contact);
+    EXPECT_NEAR(7.3 * c.at, 1, 0.51);
+    EXPECT_TRUE(checker.check(at(0, 0, 0), at(0.3, 1, 0)).free());
+  }
+}
+
+TEST(Collision, ATurnIsPartOfTheMotion) {
+  TriangleMesh pole;
+  add_triangle(pole, {0.8, 0.8, -1}, {0.82, 0.8, -1}, {0.8, 0.8, 1});
+  const CollisionChecker checker(CollisionScene(pole), shape::Box{{1.3, 0.1, 0.1}});
+  Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
+  turned.rotate(Eigen::AngleAxisd(0.5 * M_PI, Eigen::Vector3d::UnitZ()));
+  EXPECT_TRUE(checker.check(Eigen::Isometry3d::Identity()).free());
+  EXPECT_TRUE(checker.check(turned).free());
+  const CollisionCheck c = checker.check(Eigen::Isometry3d::Identity(), turned);
+  EXPECT_EQ(c.verdict, Verdict::contact);
+  EXPECT_NEAR(c.at, 0.5, 0.1);
+}
+
+TEST(Collision, MotionsAgreeWithManySamples) {
+  Rng rng(3);
+  const TriangleMesh mesh = soup(rng, 40, 3, 0.4);
+  const CollisionScene scene(mesh);
+  int met = 0, free = 0;
+  for (const RobotShape& shape : {RobotShape(shape::Sphere{0.2}), RobotShape(shape::Box{{0.3, 0.1, 0.2}}),
+                                  RobotShape(shape::Mesh{surface_of(convex_hull(corners_of({0.1, 0.2, 0.3})))})}) {
+    const CollisionChecker checker(scene, shape);
+    for (int i = 0; i < 60; ++i) {
+      const Eigen::Isometry3d from = test::random_pose(rng, 2.5), to = test::random_pose(rng, 2.5);
+      const RigidMotion motion(from, to);
+      double least = std::numeric_limits<double>::infinity();
+      bool meets = false;
+      for (int k = 0; k <= 400 && !meets; ++k) {
+        const CollisionCheck c = checker.check(motion.at(k / 400.0));
+        meets = !c.free();
+        least = std::min(least, c.clearance_m);
+      }
+      const CollisionCheck c = checker.check(from, to);
+      if (meets) {
+        EXPECT_EQ(c.verdict, Verdict::contact);
+        EXPECT_EQ(c.clearance_m, 0);
+        ++met;
+      } else if (c.free()) {
+        EXPECT_LE(c.clearance_m, least + 1e-9);
+        EXPECT_GE(c.clearance_m, 0.9 * (least - motion.way_m(0.4) / 800) - 1e-3);
+        EXPECT_LE(checker.check(motion.at(c.at)).clearance_m, c.clearance_m / 0.9 + 1e-3);
+        ++free;
+      } else {
+        EXPECT_LT(least, motion.way_m(0.4) / 800 + 1e-3);
+      }
+    }
+  }
+  EXPECT_GT(met, 30);
+  EXPECT_GT(free, 30);
+}
+
+TEST(Collision, AMotionThatStaysIsItsPose) {
+  const CollisionChecker checker(CollisionScene(ground()), shape::Sphere{0.5});
+  const CollisionCheck c = checker.check(at(0, 0, 1), at(0, 0, 1));
+  EXPECT_TRUE(c.free());
+  EXPECT_NEAR(c.clearance_m, 0.5, 1e-9);
+  EXPECT_FALSE(checker.check(at(0, 0, 0.1), at(0, 0, 0.1)).free());
+}
+
+TEST(Collision, APathNamesItsFirstSegmentInCollision) {
+  const CollisionChecker checker(CollisionScene(ground()), shape::Sphere{0.5});
+  const auto path = [](std::initializer_list<double> heights) {
+    std::vector<View> views;
+    double x = 0;
+    for (const double z : heights) views.push_back({at(x += 1, 0, z)});
+    return views;
+  };
+  const PathCheck free = checker.check(path({2, 1, 0.8, 1, 3}));
+  EXPECT_TRUE(free.free());
+  EXPECT_NEAR(free.clearance_m, 0.3, 0.031);
+  EXPECT_LE(free.clearance_m, 0.3 + 1e-9);
+  EXPECT_TRUE(free.segment == 1 || free.segment == 2);
+  const PathCheck met = checker.check(path({2, 1, 1, 0.2, 3, 0.1}));
+  EXPECT_EQ(met.verdict, Verdict::contact);
+  EXPECT_EQ(met.segment, 2U);
+  EXPECT_EQ(checker.check(path({2, 1, -1})).segment, 1U);  // through it
+  EXPECT_EQ(checker.check(path({0.2})).verdict, Verdict::contact);
+  EXPECT_NEAR(checker.check(path({2})).clearance_m, 1.5, 1e-9);
+  EXPECT_TRUE(std::isinf(checker.check(Views{}).clearance_m));
+  EXPECT_TRUE(checker.check(Views{}).free());
+  auto nan = path({2, 2, 2, 2});
+  nan[2].T_W_C.translation().y() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(checker.check(nan).verdict, Verdict::bad_pose);
+  EXPECT_EQ(checker.check(nan).segment, 1U);
+}
+
+TEST(Collision, RrtStarTakesAPlankThroughASlit) {
+  TriangleMesh wall;
   for (const double side : {-1.0, 1.0}) {
     const Eigen::Vector3d low(0, 0.3 * side, -4), high(0, 0.3 * side, 4), far_low(0, 4 * side, -4),
         far_high(0, 4 * side, 4);
@@ -210,6 +289,23 @@ TEST(Collision, AMotionThroughAWallIsFoundHoweverThinTheRobot) {
   ASSERT_GE(path->poses.size(), 3U);
   for (std::size_t i = 1; i < path->poses.size(); ++i)
     EXPECT_TRUE(plank.is_free(path->poses[i - 1], path->poses[i])) << i;
+}
+
+TEST(Collision, TheSameFromAllThreads) {
+  Rng rng(4);
+  const CollisionScene scene(soup(rng, 200, 3, 0.4));
+  for (const RobotShape& shape : shapes_of_half_a_metre()) {
+    const CollisionChecker checker(scene, shape);
+    std::vector<Eigen::Isometry3d> poses;
+    for (int i = 0; i < 200; ++i) poses.push_back(test::random_pose(rng, 3));
+    std::vector<CollisionCheck> at_once(poses.size());
+    parallel_for(poses.size(), [&](std::size_t i) { at_once[i] = checker.check(poses[i]); });
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const CollisionCheck alone = checker.check(poses[i]);
+      EXPECT_EQ(alone.verdict, at_once[i].verdict);
+      EXPECT_EQ(alone.clearance_m, at_once[i].clearance_m);
+    }
+  }
 }
 
 TEST(Collision, VerdictsHaveNames) {

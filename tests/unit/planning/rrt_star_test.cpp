@@ -61,26 +61,30 @@ void expect_valid(const PosePath& path, const Eigen::Isometry3d& start, const Ei
 }
 
 TEST(RrtStar, TendsToTheShortestWayRoundAWall) {
-  // A point in a flat box, a wall from y = -1 to 1: the shortest way touches one of its ends.
+  // A point in a flat box, which may be without height, as for a robot on the ground; a wall from y = -1 to 1: the
+  // shortest way touches one of its ends.
   const Plank body{.solids = {box(-0.1, -1, -1, 0.1, 1, 1)}};
   const Eigen::Isometry3d start = pose(-1.5, 0, 0), goal = pose(1.5, 0, 0);
   const double least_m = 2 * std::hypot(1.4, 1) + 0.2;
-  const UprightPoses space{.bounds = box(-2, -2, -0.05, 2, 2, 0.05), .metres_per_rad = 0.05};
-  double error_few = 0, error_many = 0;
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
-    const auto few = RrtStar<>({.space = space, .samples = 500}).plan(start, goal, body, Rng(seed));
-    const auto many = RrtStar<>({.space = space, .samples = 5000}).plan(start, goal, body, Rng(seed));
-    ASSERT_TRUE(few && many);
-    for (const auto& path : {*few, *many}) {
-      expect_valid(path, start, goal, body, 0.05);
-      EXPECT_GE(path.cost_m, least_m * (1 - 1e-3));  // the wall is sampled
+  for (const double height_m : {0.1, 0.0}) {
+    const UprightPoses space{.bounds = box(-2, -2, -0.5 * height_m, 2, 2, 0.5 * height_m), .metres_per_rad = 0.05};
+    double error_few = 0, error_many = 0;
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      const auto few = RrtStar<>({.space = space, .samples = 500}).plan(start, goal, body, Rng(seed));
+      const auto many = RrtStar<>({.space = space, .samples = 5000}).plan(start, goal, body, Rng(seed));
+      ASSERT_TRUE(few && many);
+      for (const auto& path : {*few, *many}) {
+        expect_valid(path, start, goal, body, 0.05);
+        EXPECT_GE(path.cost_m, least_m * (1 - 1e-3));  // the wall is sampled
+        for (const Eigen::Isometry3d& p : path.poses) EXPECT_LE(2 * std::abs(p.translation().z()), height_m);
+      }
+      EXPECT_LE(many->cost_m, few->cost_m);  // the same draws, and more
+      error_few += few->cost_m / least_m - 1, error_many += many->cost_m / least_m - 1;
     }
-    EXPECT_LE(many->cost_m, few->cost_m);  // the same draws, and more
-    error_few += few->cost_m / least_m - 1, error_many += many->cost_m / least_m - 1;
+    EXPECT_LT(error_few / 5, 0.15);
+    EXPECT_LT(error_many / 5, 0.05);
+    EXPECT_LT(error_many, error_few);
   }
-  EXPECT_LT(error_few / 5, 0.15);
-  EXPECT_LT(error_many / 5, 0.05);
-  EXPECT_LT(error_many, error_few);
 }
 
 TEST(RrtStar, APlankTurnsToFitThroughAGap) {
@@ -153,6 +157,22 @@ TEST(RrtStar, RefusesBadInput) {
                Error);
   EXPECT_THROW(static_cast<void>(RrtStar<>({.space = space}).plan(pose(0, 0, 0), pose(nan, 0, 0), Plank{}, Rng(1))),
                Error);
+}
+
+TEST(Poses, AFlatSpaceHasFewerDimensions) {
+  constexpr double turns = 2 * std::numbers::pi, rotations = 8 * std::numbers::pi * std::numbers::pi;
+  const auto upright = [](const Box3& bounds) { return UprightPoses{.bounds = bounds, .metres_per_rad = 0.5}; };
+  const auto free = [](const Box3& bounds) { return FreePoses{.bounds = bounds, .metres_per_rad = 0.5}; };
+  EXPECT_EQ(upright(box(0, 0, 0, 1, 2, 3)).dimension(), 4);
+  EXPECT_NEAR(upright(box(0, 0, 0, 1, 2, 3)).volume(), 6 * 0.5 * turns, 1e-9);
+  EXPECT_EQ(free(box(0, 0, 0, 1, 2, 3)).dimension(), 6);
+  EXPECT_NEAR(free(box(0, 0, 0, 1, 2, 3)).volume(), 6 * 0.125 * rotations, 1e-9);
+  EXPECT_EQ(upright(box(0, 0, 3, 1, 2, 3)).dimension(), 3);
+  EXPECT_NEAR(upright(box(0, 0, 3, 1, 2, 3)).volume(), 2 * 0.5 * turns, 1e-9);
+  EXPECT_EQ(free(box(1, 0, 3, 1, 2, 3)).dimension(), 4);
+  EXPECT_NEAR(free(box(1, 0, 3, 1, 2, 3)).volume(), 2 * 0.125 * rotations, 1e-9);
+  EXPECT_EQ(upright(box(1, 2, 3, 1, 2, 3)).dimension(), 1);  // it turns in one place
+  EXPECT_NEAR(upright(box(1, 2, 3, 1, 2, 3)).volume(), 0.5 * turns, 1e-9);
 }
 
 TEST(Poses, DrawsAreUniformAndBetweenIsHalfWay) {

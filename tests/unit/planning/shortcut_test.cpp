@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: MIT
 #include <vantage/planning/shortcut.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <set>
 #include <tuple>
 #include <vector>
@@ -130,6 +132,53 @@ TEST(Shortcut, PathsAreNotLongerEndTheSameAndStayWhereTheRobotFits) {
     }
   }
   EXPECT_GT(shorter, 10);
+}
+
+/// The least distance of points on a polyline to any of others [m], by samples.
+double least_distance_m(const std::vector<Eigen::Vector3d>& way, const std::vector<Eigen::Vector3d>& others) {
+  double least_m = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 1; k < way.size(); ++k)
+    for (int t = 0; t <= 60; ++t)
+      for (const Eigen::Vector3d& o : others)
+        least_m = std::min(least_m, (way[k - 1] + t / 60.0 * (way[k] - way[k - 1]) - o).norm());
+  return least_m;
+}
+
+TEST(Shortcut, ItAndAStarKeepTheClearanceThatTheyState) {
+  constexpr double clearance_m = 0.24, diagonal_m = 0.1 * std::numbers::sqrt3;
+  const double between_centres_m = std::sqrt(clearance_m * clearance_m - diagonal_m * diagonal_m / 4);
+  const VoxelGrid grid = VoxelGrid::on_lattice({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(3, 3, 2)}, 0.1);
+  double kept_m = 1, kept_anywhere_m = 1, kept_straightened_m = 1;
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    test::DrawnVoxels map(grid, clearance_m);
+    Rng rng(seed);
+    std::vector<Eigen::Vector3d> obstacles;  // as this map counts them: centres of voxels
+    map.draw_all([&](const Eigen::Vector3i& v) {
+      if (rng.uniform() > 0.006) return Space::free;
+      obstacles.push_back(grid.centre(v));
+      return Space::occupied;
+    });
+    std::vector<View> centres, places;
+    while (places.size() < 20) {
+      const Eigen::Vector3d p(rng.uniform(0, 3), rng.uniform(0, 3), rng.uniform(0, 2));
+      const Eigen::Vector3i voxel = grid.voxel_at(p);
+      if (!map.navigable(voxel)) continue;
+      places.push_back(look_at(p, {9, 9, 9}));
+      centres.push_back(look_at(grid.centre(voxel), {9, 9, 9}));
+    }
+    const AStar router({.own_ball_m = 0});
+    for (const auto& way : router.ways(map, centres[0], centres))
+      kept_m = std::min(kept_m, least_distance_m(way, obstacles));
+    for (const auto& way : router.ways(map, places[0], places))
+      kept_anywhere_m = std::min(kept_anywhere_m, least_distance_m(way, obstacles));
+    for (const auto& way : Shortcut(router).ways(map, places[0], places))
+      kept_straightened_m = std::min(kept_straightened_m, least_distance_m(way, obstacles));
+  }
+  EXPECT_GE(kept_m, between_centres_m - 1e-9);
+  EXPECT_LT(kept_m, clearance_m - 1e-3);  // less than at the centres
+  EXPECT_GE(kept_anywhere_m, clearance_m - diagonal_m / 2 - 1e-9);
+  EXPECT_GE(kept_straightened_m, clearance_m - diagonal_m / 2 - 1e-9);
+  EXPECT_LT(kept_straightened_m, between_centres_m);
 }
 
 TEST(Shortcut, FreeSpaceIsStraight) {

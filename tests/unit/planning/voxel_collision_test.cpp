@@ -186,6 +186,12 @@ TEST(VoxelCollision, WhatIsNoBodyCollides) {
   sheared.pose.linear()(0, 1) = 0.5;
   sheared.pose.translation() = good;
   EXPECT_TRUE(collides(map, sheared));
+  OrientedBox mirrored{Eigen::Isometry3d(Eigen::Translation3d(good)), {0.1, 0.1, 0.1}};
+  EXPECT_FALSE(collides(map, mirrored));
+  mirrored.pose.linear().diagonal() << -1, 1, 1;
+  EXPECT_TRUE(collides(map, mirrored));
+  EXPECT_TRUE(
+      collides_on_way(map, OrientedBox{Eigen::Isometry3d(Eigen::Translation3d(good)), good / 10}, mirrored.pose, 0.01));
   EXPECT_REFUSED(collides_on_way(map, OrientedBox{Eigen::Isometry3d::Identity(), good}, sheared.pose, 0.0),
                  "tolerance_m");
 }
