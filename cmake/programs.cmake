@@ -31,7 +31,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 function(vantage_leave_out files) # name of a list
   if(NOT VANTAGE_WITH_COLLISION)
     set(left_out ${${files}})
-    list(FILTER left_out INCLUDE REGEX "(/|planning_)(collision|frustum_overlap|convex_hull)(_test)?\\.[ch]pp$")
+    list(FILTER left_out INCLUDE REGEX "(/|planning_)(collision|collision_hazard|frustum_overlap|convex_hull)(_test)?\\.[ch]pp$")
     foreach(file IN LISTS left_out)
       message(STATUS "Left out, as VANTAGE_WITH_COLLISION=OFF: ${file}")
       list(REMOVE_ITEM ${files} ${file})
