@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <vantage/core/bytes.hpp>
@@ -113,6 +116,29 @@ TEST(VoxelMapInput, LabelsAreCountedWhereTheyAreSeen) {
   EXPECT_NO_THROW(corridor<RayCast>().check(f)) << "labels do not matter to others";
 }
 
+TEST(VoxelMapInput, TakesTheMemoryItSays) {
+  const auto used = []<class M>(M map) {
+    const std::size_t empty = map.bytes();
+    for (std::uint64_t k = 0; k < 8; ++k) map.integrate(test::random_frame(Rng(4).fork(k)));
+    return std::pair(map.bytes() - empty, map.known_blocks().size());
+  };
+  const auto config = []<class C>(C c) {
+    c.bounds = test::small_room;
+    c.voxel_m = 0.02;
+    c.clearance_m = 0.1;
+    return c;
+  };
+  using Plain = VoxelMap<RayCast>;
+  using Classed = VoxelMap<RayCast, ClassCounts<6>>;
+  const auto [plain, blocks] = used(Plain(config(Plain::Config{})));
+  const auto [classed, same_blocks] = used(Classed(config(Classed::Config{})));
+  ASSERT_GT(blocks, 640U);
+  ASSERT_EQ(blocks, same_blocks);
+  const double voxels = 512.0 * static_cast<double>((blocks + 63) / 64 * 64);  // of whole slabs
+  EXPECT_NEAR(static_cast<double>(plain) / voxels, 4.65, 0.025);
+  EXPECT_EQ(static_cast<double>(classed - plain) / voxels, 4 * 6);
+}
+
 TEST(VoxelMapInput, ChecksConfigsAndFrames) {
   using M = VoxelMap<RayCast>;
   M::Config c;
@@ -176,6 +202,55 @@ TEST(VoxelMapInput, WhatWasLoadedIsTheSameMap) {
   VoxelMap<Projective> other = room<VoxelMap<Projective>>();
   Source again(saved);
   EXPECT_REFUSED((other.load(again), 0), "another kind");
+}
+
+TEST(VoxelMapInput, AMapOfVeryManyClassesIsLoaded) {
+  using M = VoxelMap<RayCast, ClassCounts<4096>>;  // 8 MB a block: more than a stack holds
+  const M::Config config{.bounds = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1.8, 1, 1)}, .clearance_m = 0};
+  M map(config);
+  Frame f = wall(1.6F);
+  f.labels.setConstant(20, 20, 4095);
+  map.integrate(f);
+  ASSERT_EQ(map.known_blocks().size(), 2U);
+  const std::vector<std::byte> saved = bytes(map);
+  M loaded(config);
+  Source source(saved);
+  loaded.load(source);
+  source.done();
+  EXPECT_TRUE(bytes(loaded) == saved);
+  EXPECT_EQ(loaded.label({8, 2, 2}), 4095);
+  EXPECT_GT(loaded.class_probability({8, 2, 2}, 4095), 0.9);
+  Source half(std::span<const std::byte>(saved).first(saved.size() - 1));
+  EXPECT_THROW(loaded.load(half), Error);
+  EXPECT_TRUE(bytes(loaded) == saved) << "unchanged";
+  Rendering<channel::Semantics> image;
+  loaded.render(f.view, Camera::from_fov(2, 2, deg(5)), image);
+  EXPECT_GT(image.probability[4095](0, 0), image.probability[0](0, 0));
+}
+
+/// As an integrate() leaves it that made a block, and then found no memory to go on with.
+struct Interrupted : VoxelMap<RayCast> {
+  using Known = KnownVoxels<ClassedBlock<NoClasses>, BallInFreeVoxels>;
+  explicit Interrupted(VoxelMap<RayCast> map) : VoxelMap<RayCast>(std::move(map)) {}
+  void make(const Eigen::Vector3i& block) {
+    this->Known::blocks_.reserve(1);
+    this->Known::blocks_.make(block);
+  }
+};
+TEST(VoxelMapInput, WhatRanOutOfMemoryIsSavedAsWhatItKnows) {
+  Interrupted map(after(corridor<RayCast>(), wall(1.0F)));
+  const std::vector<std::byte> saved = bytes(map);
+  const std::size_t known = map.known_blocks().size();
+  map.make({2, 0, 0});
+  ASSERT_EQ(map.known_blocks().size(), known + 1);
+  EXPECT_EQ(bytes(map), saved);
+  auto loaded = corridor<RayCast>();
+  const std::vector<std::byte> again = bytes(map);
+  Source source(again);
+  loaded.load(source);
+  source.done();
+  EXPECT_EQ(row(loaded), "-----#..............");
+  EXPECT_EQ(row(after(VoxelMap<RayCast>(map), wall(3.6F))), row(after(loaded, wall(3.6F)))) << "it learns on";
 }
 
 TEST(VoxelMapInput, DamagedBytesAreRefusedOrAMap) {

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <vantage/concepts/map.hpp>
+#include <vantage/core/assert.hpp>
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/core/parallel.hpp>
@@ -46,10 +47,10 @@ struct ClassedBlock : VoxelBlock {
 /// - Clearance: where a robot fits, BallInFreeVoxels or NoOccupiedCentreInBall
 ///
 /// A voxel is explored once a frame hit or passed it. What can be asked of voxels: KnownVoxels. Memory: 4 bytes for
-/// each block of 8^3 voxels that fits into the box, and 4.75 bytes a voxel (with classes 4 n more) of the blocks that
-/// were touched, in slabs of 64. Models UncertainMap, DepthMap, NavigableMap, RegionMap<frontier>, CoverageMap,
-/// ForetellsRefusal and Persistent. Const members may run concurrently; `integrate` uses all threads, and its result
-/// does not depend on their number.
+/// each block of 8^3 voxels that fits into the box, and 4.65 bytes a voxel (with n classes 4 n more) of the blocks that
+/// were touched, in slabs of 64 (fewer if these are large). Models UncertainMap, DepthMap, NavigableMap,
+/// RegionMap<frontier>, CoverageMap, ForetellsRefusal and Persistent; with classes Renders<channel::Semantics>. Const
+/// members may run concurrently; `integrate` uses all threads, and its result does not depend on their number.
 template <class Update = RayCast, class Semantics = NoClasses, class Clearance = BallInFreeVoxels>
 class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
   using Block = ClassedBlock<Semantics>;
@@ -65,7 +66,10 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     double clearance_m = 0.3;  ///< that the robot needs around its centre, >= 0, at most 24 voxels
     DepthRange range = {};
     Update update = {};
-    std::size_t max_bytes = std::size_t{4} << 30;  ///< refuse what would need more memory
+    [[no_unique_address]] Semantics semantics = {};
+    /// Refuse what would need more memory for index and blocks: bytes(). What a frame needs is not counted: about 210
+    /// bytes for each block of the box around what its camera sees, and 9 for each that was ever touched.
+    std::size_t max_bytes = std::size_t{4} << 30;
   };
 
   /// Throws Error naming what is bad, or if the box holds more voxels than max_bytes (or 2^31 blocks) allow.
@@ -90,12 +94,12 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
 
   [[nodiscard]] const Config& config() const { return config_; }
 
-  /// Draws Depth, Entropy, Uncertainty and InformationGain, in any combination; see render_voxels. Entropy
-  /// and gain reach as far as the depth range.
+  /// Draws Depth, Entropy, Uncertainty, InformationGain and, with classes, Semantics, in any combination; see
+  /// render_voxels. All but depth reach as far as the depth range.
   template <class... Channels>
   void render(const View& view, const Camera& camera, Rendering<Channels...>& out) const
-      requires(renders_voxels<Channels...>) {
-    render_voxels(*this, config_.update.one_voxel(), config_.range.max_m, view, camera, out);
+      requires(renders_voxels<Semantics, Channels...>) {
+    render_voxels(*this, config_.update.one_voxel(), config_.semantics, config_.range.max_m, view, camera, out);
   }
 
   /// Pixels of each class seen in a voxel of the grid; none of it before any was.
@@ -108,8 +112,19 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
   }
   /// The class seen most often in a voxel of the grid, the lowest of several; 0 = unknown.
   [[nodiscard]] std::uint16_t label(const Eigen::Vector3i& voxel) const requires(Semantics::classes > 0) {
-    const auto counts = class_counts(voxel);
+    const Block* b = blocks_.find(block_of(voxel));
+    if (!b) return 0;
+    const auto counts = b->classes.of(local_of(voxel));
     return static_cast<std::uint16_t>(std::ranges::max_element(counts) - counts.begin());
+  }
+  /// How likely it is that a voxel of the grid, if it is occupied, is of a class (below Semantics::classes): the mean
+  /// of a Dirichlet posterior, see ClassCounts. Over all classes, 0 = unknown included, the sum is 1; label() has the
+  /// most.
+  [[nodiscard]] double class_probability(const Eigen::Vector3i& voxel, std::uint16_t label) const
+      requires(Semantics::classes > 0) {
+    VANTAGE_ASSERT(label < Semantics::classes);
+    const Block* b = blocks_.find(block_of(voxel));
+    return config_.semantics.probability(b ? &b->classes : nullptr, local_of(voxel), label);
   }
 
   void save(Sink& sink) const;
@@ -124,6 +139,7 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     check.done();
     c.range.validate();
     c.update.validate();
+    c.semantics.validate();
     return c;
   }
   // Checks a frame, and where it can change something.
@@ -231,8 +247,12 @@ void VoxelMap<Update, Semantics, Clearance>::count_classes(const Frame& frame) r
 template <class Update, class Semantics, class Clearance>
 void VoxelMap<Update, Semantics, Clearance>::save(Sink& sink) const {
   sink.put(std::string_view(signature()));
-  sink.put(static_cast<std::uint64_t>(blocks_.count()));
+  // A block that explores nothing was made by an integrate() that ran out of memory: it says as much as none.
+  std::uint64_t count = 0;
+  for (std::size_t s = 0; s < blocks_.count(); ++s) count += blocks_[s].explored.any();
+  sink.put(count);
   for (std::size_t s = 0; s < blocks_.count(); ++s) {
+    if (!blocks_[s].explored.any()) continue;
     for (const int i : blocks_.known()[s]) sink.put(static_cast<std::int32_t>(i));
     for (const std::uint64_t slice : blocks_[s].explored.slice) sink.put(slice);
     sink.put(std::span<const float>(blocks_[s].log_odds));
@@ -258,7 +278,9 @@ void VoxelMap<Update, Semantics, Clearance>::load(Source& source) {
     for (int& i : at) i = source.get<std::int32_t>();
     if (!loaded.blocks_.contains(at)) refuse(n, concat("at (", at.transpose(), ")"), "in the grid");
     if (loaded.blocks_.slot(at) >= 0) refuse(n, concat("at (", at.transpose(), ")"), "each block once");
-    Block b;
+    loaded.blocks_.reserve(1);
+    loaded.blocks_.make(at);
+    Block& b = loaded.blocks_[static_cast<std::size_t>(n)];  // in place: with many classes it would fill a stack
     for (std::uint64_t& slice : b.explored.slice) source.get(slice);
     if (!b.explored.any() || !((b.explored & ~VoxelBits::inside(grid_, at)) == VoxelBits{}))
       refuse(n, "explores no voxel of the grid, or others", "some voxels of the grid");
@@ -276,9 +298,6 @@ void VoxelMap<Update, Semantics, Clearance>::load(Source& source) {
     }
     b.free = b.explored & config_.update.free(b.log_odds);
     b.occupied = b.explored & config_.update.occupied(b.log_odds);
-    loaded.blocks_.reserve(1);
-    loaded.blocks_.make(at);
-    loaded.blocks_[static_cast<std::size_t>(n)] = b;
   }
   loaded.derive();
   *this = std::move(loaded);
