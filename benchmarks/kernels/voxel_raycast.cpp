@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 // Rays into a voxel map of a room of 6 x 5 x 2.5 m seen from eight places, for the first occupied voxel; whole images
-// of depth, entropy and expected information gain; and the unexplored voxels seen from 100 candidates. Items are rays,
-// or candidates. voxel/raycast runs on one thread, as OctoMap 1.9.7's castRay does, if it is there, on the same map (by
-// way of a .bt file) and the same rays in the same run; octomap_ratio = its time / ours, measured in turn. All else
-// uses all threads.
+// of depth, entropy, expected information gain and 8 classes; and the unexplored voxels seen from 100 candidates. Items
+// are rays, or candidates. voxel/raycast runs on one thread, as OctoMap 1.9.7's castRay does, if it is there, on the
+// same map (by way of a .bt file) and the same rays in the same run; octomap_ratio = its time / ours, measured in turn.
+// All else uses all threads.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -16,7 +16,7 @@
 #include "peak.hpp"
 
 #include <vantage/io/octomap_bt.hpp>
-#include <vantage/maps/voxel/voxel_map.hpp>
+#include <vantage/maps/voxel/voxel_presets.hpp>
 #include <vantage/utility/unexplored.hpp>
 #ifdef VANTAGE_HAS_OCTOMAP
 #include <octomap/octomap.h>
@@ -33,17 +33,21 @@ View some_view(Rng& rng) {
   return look_at(eye, eye + Eigen::Vector3d(std::cos(heading), std::sin(heading), rng.uniform(-0.4, 0.2)));
 }
 /// `around`: what the map reaches beyond the room.
-VoxelMap<> room_map(double voxel_m, const Eigen::Vector3d& around, int frames) {
+template <class M = VoxelMap<>>
+M room_map(double voxel_m, const Eigen::Vector3d& around = Eigen::Vector3d::Constant(0.2), int frames = 8) {
   const Box3 walls = bench::Room().walls;
-  VoxelMap<>::Config config;
+  typename M::Config config;
   config.bounds = Box3(walls.min() - around, walls.max() + around);
   config.voxel_m = voxel_m;
-  VoxelMap<> map(config);
+  M map(config);
   Rng rng(1);
-  for (int i = 0; i < frames; ++i) map.integrate(bench::room_frame(256, some_view(rng)));
+  for (int i = 0; i < frames; ++i) {
+    Frame frame = bench::room_frame(256, some_view(rng));
+    frame.labels = (1 + 6.99F * frame.colour.r).cast<std::uint16_t>();  // 1 to 7, along x
+    map.integrate(frame);
+  }
   return map;
 }
-VoxelMap<> room_map(double voxel_m) { return room_map(voxel_m, Eigen::Vector3d::Constant(0.2), 8); }
 
 void raycast(benchmark::State& state, double voxel_m) {
   const VoxelMap<> map = room_map(voxel_m);
@@ -100,9 +104,9 @@ void raycast(benchmark::State& state, double voxel_m) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(rays.size()));
 }
 
-template <class... Channels>
+template <class M, class... Channels>
 void render(benchmark::State& state) {
-  const VoxelMap<> map = room_map(0.2);
+  const M map = room_map<M>(0.2);
   const View view = look_at({-2.2, -1.5, 1.5}, {1, 0.2, 0.8});
   const Camera camera = Camera::from_fov(128, 128, deg(60));
   Rendering<Channels...> image;
@@ -110,9 +114,10 @@ void render(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * camera.width * camera.height);
 }
 
-void depth(benchmark::State& state) { render<channel::Depth>(state); }
-void entropy(benchmark::State& state) { render<channel::Entropy>(state); }
-void gain(benchmark::State& state) { render<channel::InformationGain>(state); }
+void depth(benchmark::State& state) { render<VoxelMap<>, channel::Depth>(state); }
+void entropy(benchmark::State& state) { render<VoxelMap<>, channel::Entropy>(state); }
+void gain(benchmark::State& state) { render<VoxelMap<>, channel::InformationGain>(state); }
+void semantics(benchmark::State& state) { render<SemanticVoxelMap<8>, channel::Semantics>(state); }
 
 /// 128 x 128 px each, in a box of 12 x 10 x 2.5 m of which a room of 6 x 5 m is known in part; 20 cm voxels.
 void unexplored(benchmark::State& state) {
@@ -135,6 +140,7 @@ BENCHMARK_CAPTURE(raycast, 5, 0.05)->Name("voxel/raycast/5cm")->Unit(benchmark::
 BENCHMARK(depth)->Name("voxel/render_depth/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(entropy)->Name("voxel/render_entropy/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(gain)->Name("voxel/render_information_gain/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(semantics)->Name("voxel/render_semantics/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(unexplored)->Name("voxel/unexplored/100")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace

@@ -29,6 +29,7 @@ using FieldMaps = SuiteOf<PersistentMaps, need::Field>;
 using OccupancyMaps = SuiteOf<PersistentMaps, need::Occupancy>;
 using RegionMaps = SuiteOf<PersistentMaps, need::Regions<frontier>>;
 using LowConfidenceMaps = SuiteOf<PersistentMaps, need::Regions<low_confidence>>;
+using SemanticMaps = SuiteOf<PersistentMaps, need::Channels<channel::Semantics>>;
 using FisherMaps = SuiteOf<PersistentMaps, need::Fisher>;
 
 template <class M>
@@ -63,6 +64,13 @@ Image<float> uncertainty(const M& map, const View& view) {
   Rendering<channel::Uncertainty> out;
   map.render(view, Camera::from_fov(12, 9, deg(70)), out);
   return out.uncertainty;
+}
+
+template <class M>
+std::vector<Image<float>> classes(const M& map, const View& view) {
+  Rendering<channel::Semantics> out;
+  map.render(view, Camera::from_fov(12, 9, deg(70)), out);
+  return out.probability;
 }
 
 template <class M>
@@ -196,6 +204,45 @@ TYPED_TEST(DepthMapContract, RendersDepthInFrontOfTheCamera) {
     ASSERT_EQ(out.depth.cols(), 12);
     EXPECT_TRUE((out.depth.isNaN() || out.depth > 0).all());
   }
+}
+
+template <class M>
+class SemanticMapContract : public testing::Test {};
+TYPED_TEST_SUITE(SemanticMapContract, SemanticMaps);
+
+TYPED_TEST(SemanticMapContract, RendersADistributionOverClasses) {
+  for (const std::size_t n : {std::size_t{0}, measured}) {
+    const TypeParam map = after<TypeParam>(n);
+    for (const View& v : MapFixture<TypeParam>::views()) {
+      const std::vector<Image<float>> images = classes(map, v);
+      ASSERT_GE(images.size(), 2u);
+      Image<float> sum = Image<float>::Zero(9, 12);
+      for (const Image<float>& of_class : images) {
+        ASSERT_EQ(of_class.rows(), 9);
+        ASSERT_EQ(of_class.cols(), 12);
+        EXPECT_TRUE((of_class >= 0 && of_class <= 1).all());
+        sum += of_class;
+      }
+      EXPECT_TRUE(((sum - 1).abs() < 1e-4F).all());
+    }
+  }
+}
+
+TYPED_TEST(SemanticMapContract, TheSameBitsWithAnyNumberOfThreadsAndAskedBySeveral) {
+  const View v = MapFixture<TypeParam>::views().front();
+  const auto same = [](const std::vector<Image<float>>& a, const std::vector<Image<float>>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Image<float>& x, const Image<float>& y) { return (x == y).all(); });
+  };
+  const auto mission = [&] { return classes(after(measured, large<TypeParam>()), v); };
+  const auto one = with_threads(1, mission);
+  for (const int n : {2, 8}) EXPECT_TRUE(same(one, with_threads(n, mission)));
+  const TypeParam map = after(measured, large<TypeParam>());
+  std::vector<std::vector<Image<float>>> answers(3);
+  std::vector<std::thread> threads;
+  for (auto& a : answers) threads.emplace_back([&] { a = classes(map, v); });
+  for (auto& t : threads) t.join();
+  for (const auto& a : answers) EXPECT_TRUE(same(one, a));
 }
 
 template <class M>

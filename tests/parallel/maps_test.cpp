@@ -55,6 +55,11 @@ Bytes answers(const M& map) {
   Sink answer;
   answer.put(image.depth);
   answer.put(image.uncertainty);
+  if constexpr (Renders<M, channel::Semantics>) {
+    Rendering<channel::Semantics> classes;
+    map.render(view, camera, classes);
+    for (const Image<float>& of_class : classes.probability) answer.put(of_class);
+  }
   if constexpr (FisherMap<M>) {
     std::vector<double> fisher(map.parameters());
     map.fisher(view, camera, fisher);

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #include <concepts>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,7 @@ using need::Coverage, need::Depth, need::Field, need::Fisher, need::Forecast, ne
 using Frontier = need::Regions<frontier>;
 using Entropy = need::Channels<channel::Entropy>;
 using Gain = need::Channels<channel::InformationGain>;
+using Semantics = need::Channels<channel::Semantics>;
 using LowConfidence = need::Regions<low_confidence>;
 
 template <class M, class... Ns>
@@ -30,7 +32,7 @@ constexpr int offered = (0 + ... + offers<M, Ns>);
 template <class M, class... Ns>
 constexpr bool offers_just = Map<M>&& offered<M, Ns...> == sizeof...(Ns) &&
                              offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels, Navigable,
-                                     Frontier, LowConfidence, Fisher, Entropy, Gain> == sizeof...(Ns);
+                                     Frontier, LowConfidence, Fisher, Entropy, Gain, Semantics> == sizeof...(Ns);
 
 // Archetypes: each adds one capability to a plain map.
 static_assert(offers_just<archetype::Map>);
@@ -71,14 +73,31 @@ static_assert(field_map<IntegralGp<SquaredExponential, CellAverage, Diagonal, Fi
 static_assert(Posed<IntegralGp<>::Measurement> && Posed<archetype::Map::Measurement>);
 
 // Voxels: Depth, Uncertainty, Entropy and InformationGain in any combination; occupancy to the last voxel.
-template <class M>
+template <class M, class... More>
 constexpr bool voxel_map =
-    offers_just<M, Uncertainty, Depth, Coverage, Occupancy, Voxels, Navigable, Frontier, Entropy, Gain>&& Persistent<M>;
-static_assert(voxel_map<PresetVoxelMap<preset::reference>> && voxel_map<SemanticVoxelMap<5>> &&
-              voxel_map<SemanticVoxelMap<5, preset::reference>> && std::same_as<PresetVoxelMap<>, VoxelMap<>>);
+    offers_just<M, Uncertainty, Depth, Coverage, Occupancy, Voxels, Navigable, Frontier, Entropy, Gain, More...>&&
+        Persistent<M>&& ForetellsRefusal<M>;
+static_assert(voxel_map<VoxelMap<>> && voxel_map<PresetVoxelMap<preset::reference>> &&
+              std::same_as<PresetVoxelMap<>, VoxelMap<>>);
 static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
               !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
-static_assert(ForetellsRefusal<VoxelMap<>> && Posed<VoxelMap<>::Measurement>);
+static_assert(Posed<VoxelMap<>::Measurement>);
+
+// Semantic voxels: classes as well, and only where they are kept.
+static_assert(voxel_map<SemanticVoxelMap<5>, Semantics> &&
+              voxel_map<SemanticVoxelMap<5, preset::reference>, Semantics> &&
+              voxel_map<VoxelMap<RayCast, ClassCounts<2>>, Semantics>);
+static_assert(Renders<SemanticVoxelMap<5>, channel::Semantics, channel::Depth, channel::Entropy, channel::Uncertainty,
+                      channel::InformationGain> &&
+              !Renders<SemanticVoxelMap<5>, channel::Semantics, channel::Labels> &&
+              !Renders<VoxelMap<>, channel::Semantics> && !Renders<VoxelMap<>, channel::Depth, channel::Semantics>);
+template <class M>
+concept KnowsClasses = requires(const M m, const Eigen::Vector3i& voxel) {
+  { m.class_probability(voxel, 1) } -> std::same_as<double>;
+  { m.label(voxel) } -> std::same_as<std::uint16_t>;
+  m.class_counts(voxel);
+};
+static_assert(KnowsClasses<SemanticVoxelMap<5>> && !KnowsClasses<VoxelMap<>>);
 
 // Surfels: colour, depth and confidence in any combination; what their voxels know; both kinds of regions.
 template <class M>

@@ -31,9 +31,11 @@ struct Entropy {
 struct InformationGain {
   Image<float> information_gain;
 };  ///< how much entropy of the map a measurement along the ray is expected to take away [nats]
+/// Of which class the first surface is, if there is one (eq. 5.4): one image a class, by its number. In [0, 1], with
+/// sum 1; class 0 = unknown also has the chance that there is none.
 struct Semantics {
   std::vector<Image<float>> probability;
-};  ///< one image a class
+};
 struct Labels {
   Image<std::uint16_t> labels;
 };  ///< class of what is seen; 0 = unknown

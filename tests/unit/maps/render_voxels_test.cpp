@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <tuple>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -109,7 +113,7 @@ TEST(RenderVoxels, IsWhatSlowRaysGather) {
   for (const double range : {1.3, std::numeric_limits<double>::infinity()})
     for (const View& view : views) {
       Rendering<channel::Depth, channel::Entropy, channel::Uncertainty, channel::InformationGain> out;
-      render_voxels(map, Sensor(), range, view, camera, out);
+      render_voxels(map, Sensor(), NoClasses(), range, view, camera, out);
       for (int row = 0; row < camera.height; ++row)
         for (int column = 0; column < camera.width; ++column) {
           const Slow slow(map, view, row, column, range);
@@ -133,9 +137,9 @@ TEST(RenderVoxels, AChannelAloneIsAsItIsAmongOthers) {
   Rendering<channel::Depth, channel::InformationGain> both;
   Rendering<channel::Depth> depth;
   Rendering<channel::InformationGain> gain;
-  render_voxels(map, Sensor(), 5, views[0], camera, both);
-  render_voxels(map, Sensor(), 5, views[0], camera, depth);
-  render_voxels(map, Sensor(), 5, views[0], camera, gain);
+  render_voxels(map, Sensor(), NoClasses(), 5, views[0], camera, both);
+  render_voxels(map, Sensor(), NoClasses(), 5, views[0], camera, depth);
+  render_voxels(map, Sensor(), NoClasses(), 5, views[0], camera, gain);
   EXPECT_TRUE((both.information_gain == gain.information_gain).all());
   EXPECT_TRUE(((both.depth == depth.depth) || (both.depth.isNaN() && depth.depth.isNaN())).all());
 }
@@ -143,7 +147,7 @@ TEST(RenderVoxels, AChannelAloneIsAsItIsAmongOthers) {
 TEST(RenderVoxels, UnknownSpaceHasTwiceTheEntropyOfAVoxel) {
   const DrawnLogOdds map(VoxelGrid::dividing({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(9, 9, 9)}, 0.1));
   Rendering<channel::Entropy, channel::Depth> out;
-  render_voxels(map, Sensor(), 100, look_at({4.5, 4.5, 4.5}, {9, 5, 5}), camera, out);
+  render_voxels(map, Sensor(), NoClasses(), 100, look_at({4.5, 4.5, 4.5}, {9, 5, 5}), camera, out);
   for (Eigen::Index i = 0; i < out.entropy.size(); ++i) EXPECT_NEAR(out.entropy(i), 2 * std::numbers::ln2, 1e-4);
   EXPECT_TRUE(out.depth.isNaN().all());
 }
@@ -152,7 +156,7 @@ TEST(RenderVoxels, ACameraInsideOfSomethingSeesItAtOnce) {
   DrawnLogOdds map(VoxelGrid::dividing({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 1, 1)}, 0.1));
   map.set({5, 5, 5}, 3);
   Rendering<channel::Depth> out;
-  render_voxels(map, Sensor(), 100, look_at({0.55, 0.55, 0.55}, {1, 0.5, 0.5}), camera, out);
+  render_voxels(map, Sensor(), NoClasses(), 100, look_at({0.55, 0.55, 0.55}, {1, 0.5, 0.5}), camera, out);
   EXPECT_TRUE((out.depth == std::numeric_limits<float>::min()).all());
 }
 
@@ -160,7 +164,7 @@ TEST(RenderVoxels, ThreadsDoNotMatter) {
   const DrawnLogOdds map = random_map();
   const auto draw = [&] {
     Rendering<channel::Entropy, channel::InformationGain> out;
-    render_voxels(map, Sensor(), 5, views[0], camera, out);
+    render_voxels(map, Sensor(), NoClasses(), 5, views[0], camera, out);
     return out;
   };
   const auto one = test::with_threads(1, draw);
@@ -176,8 +180,8 @@ TEST(RenderVoxels, BadViewsAreRefused) {
   View view = views[0];
   view.T_W_C.translation().x() = std::nan("");
   Rendering<channel::Depth> out;
-  EXPECT_THROW(render_voxels(map, Sensor(), 5, view, camera, out), Error);
-  EXPECT_THROW(render_voxels(map, Sensor(), 5, views[0], Camera{}, out), Error);
+  EXPECT_THROW(render_voxels(map, Sensor(), NoClasses(), 5, view, camera, out), Error);
+  EXPECT_THROW(render_voxels(map, Sensor(), NoClasses(), 5, views[0], Camera{}, out), Error);
 }
 
 /// That a map says of one voxel what it does to a whole block, and draws what its voxels say.
@@ -216,6 +220,133 @@ void expect_own_sensor() {
 TEST(RenderVoxels, AVoxelMapsOwnSensor) {
   expect_own_sensor<RayCast>();
   expect_own_sensor<Projective>();
+}
+
+/// What a map with classes draws, voxel by voxel along a ray and in double precision, by what it says of voxels.
+template <class M>
+std::vector<double> slow_classes(const M& map, const View& view, const Camera& from, int row, int column) {
+  constexpr std::size_t n = std::tuple_size_v<decltype(map.class_counts({}))>;
+  std::vector<double> of_class(n);
+  double visibility = 1;
+  for (GridRay ray(map.grid(), view.position(), view.T_W_C.linear() * from.ray(column + 0.5, row + 0.5));
+       ray && ray.enter() <= map.config().range.max_m; ray.step()) {
+    const double p = map.probability(ray.voxel()), prior = map.config().semantics.prior;
+    const auto counts = map.class_counts(ray.voxel());
+    const double all = std::accumulate(counts.begin(), counts.end(), 0.0) + static_cast<double>(n) * prior;
+    for (std::size_t c = 0; c < n; ++c) {
+      const double of_voxel = (counts[c] + prior) / all;
+      EXPECT_NEAR(map.class_probability(ray.voxel(), static_cast<std::uint16_t>(c)), of_voxel, 1e-12);
+      of_class[c] += visibility * p * of_voxel;
+    }
+    visibility *= 1 - p;
+  }
+  of_class[0] += visibility;
+  return of_class;
+}
+template <class Update>
+void expect_slow_classes(double range_m, double prior) {
+  using M = VoxelMap<Update, ClassCounts<5>>;
+  typename M::Config config{.bounds = test::small_room, .voxel_m = 0.13, .clearance_m = 0.1, .semantics = {prior}};
+  config.range.max_m = range_m;
+  M map(config);
+  const auto expect_drawn = [&] {
+    double seen = 0;
+    for (const View& view : {test::random_frame(Rng(4)).view, test::random_frame(Rng(7).fork(1)).view, views[1]}) {
+      Rendering<channel::Semantics> out;
+      map.render(view, camera, out);
+      ASSERT_EQ(out.probability.size(), 5U);
+      for (int row = 0; row < camera.height; ++row)
+        for (int column = 0; column < camera.width; ++column) {
+          const std::vector<double> slow = slow_classes(map, view, camera, row, column);
+          for (std::size_t c = 0; c < 5; ++c) ASSERT_NEAR(out.probability[c](row, column), slow[c], 2e-5);
+          for (std::size_t c = 1; c < 5; ++c) seen = std::max(seen, slow[c] - slow[0]);
+        }
+    }
+    EXPECT_EQ(seen > 0.02, map.counts().explored > 0) << "of what was seen the class is known better";
+  };
+  expect_drawn();
+  for (std::uint64_t k = 0; k < 8; ++k) map.integrate(test::random_frame(Rng(7).fork(k)));
+  expect_drawn();
+}
+TEST(RenderVoxels, ClassesAreWhatSlowRaysMeet) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  expect_slow_classes<RayCast>(infinity, 0.2);
+  expect_slow_classes<RayCast>(0.9, 3);
+  expect_slow_classes<Projective>(infinity, 1e-6);
+}
+
+TEST(RenderVoxels, ClassesOfOneVoxelByHand) {
+  using M = VoxelMap<RayCast, ClassCounts<4>>;
+  M map({.bounds = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.2, 0.2, 0.2)}, .clearance_m = 0, .semantics = {0.5}});
+  Frame f;
+  f.camera = Camera::from_fov(4, 4, deg(10));
+  f.view = look_at({-1, 0.1, 0.1}, {1, 0.1, 0.1});
+  f.depth.setConstant(4, 4, 1.1F);
+  f.labels.setConstant(4, 4, 2);
+  f.labels.row(0) = 0;
+  f.labels(3, 3) = 3;
+  map.integrate(f);
+  ASSERT_EQ(map.class_counts({0, 0, 0}), (std::array<std::uint32_t, 4>{0, 0, 11, 1}));
+  const std::array<double, 4> expected = {0.5 / 14, 0.5 / 14, 11.5 / 14, 1.5 / 14};
+  Rendering<channel::Semantics> at, away;
+  map.render(f.view, f.camera, at);
+  map.render(look_at({-1, 0.1, 0.1}, {-2, 0.1, 0.1}), f.camera, away);
+  const double p = probability(0.85);
+  for (std::uint16_t c = 0; c < 4; ++c) {
+    EXPECT_NEAR(map.class_probability({0, 0, 0}, c), expected[c], 1e-12);
+    EXPECT_EQ(map.class_probability({1, 0, 0}, c), 0.25) << "nothing is known outside of the grid";
+    EXPECT_NEAR(at.probability[c](1, 1), p * expected[c] + (c == 0 ? 1 - p : 0), 1e-5);
+    EXPECT_TRUE((away.probability[c] == (c == 0 ? 1.0F : 0.0F)).all()) << "nothing is met";
+  }
+  EXPECT_EQ(map.label({0, 0, 0}), 2);
+}
+
+TEST(RenderVoxels, TheLikeliestClassIsTheOneThatIsThere) {
+  // Behind two metres of voxels that were passed once, each of which may well be occupied.
+  using M = VoxelMap<RayCast, ClassCounts<6>>;
+  M map({.bounds = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(4, 1, 1)}, .clearance_m = 0});
+  Frame f;
+  f.camera = Camera::from_fov(20, 20, deg(10));
+  f.view = look_at({0.1, 0.5, 0.5}, {9, 0.5, 0.5});
+  f.depth.setConstant(20, 20, 2.0F);
+  f.labels.setConstant(20, 20, 4);
+  const auto likeliest = [&] {
+    Rendering<channel::Semantics> out;
+    map.render(f.view, f.camera, out);
+    std::size_t most = 0;
+    for (std::size_t c = 1; c < 6; ++c)
+      if (out.probability[c](10, 10) > out.probability[most](10, 10)) most = c;
+    return most;
+  };
+  EXPECT_EQ(likeliest(), 0U);
+  map.integrate(f);
+  EXPECT_EQ(likeliest(), 4U);
+}
+
+TEST(RenderVoxels, ClassesAreDrawnTogetherWithAllElseAndByAnyNumberOfThreads) {
+  using M = VoxelMap<RayCast, ClassCounts<5>>;
+  M map({.bounds = test::small_room, .voxel_m = 0.1, .clearance_m = 0.1});
+  for (std::uint64_t k = 0; k < 4; ++k) map.integrate(test::random_frame(Rng(7).fork(k)));
+  const View view = test::random_frame(Rng(7)).view;
+  Rendering<channel::Semantics> alone;
+  test::with_threads(1, [&] { map.render(view, camera, alone); });
+  Rendering<channel::Depth, channel::Entropy> others;
+  map.render(view, camera, others);
+  for (const int n : {1, 2, 4}) {
+    Rendering<channel::Semantics, channel::InformationGain, channel::Depth, channel::Entropy> all;
+    test::with_threads(n, [&] { map.render(view, camera, all); });
+    for (std::size_t c = 0; c < 5; ++c) EXPECT_TRUE((all.probability[c] == alone.probability[c]).all());
+    EXPECT_TRUE((all.entropy == others.entropy).all());
+    EXPECT_TRUE(((all.depth == others.depth) || (all.depth.isNaN() && others.depth.isNaN())).all());
+  }
+}
+
+TEST(RenderVoxels, ThePriorOfClassesIsChecked) {
+  VoxelMap<RayCast, ClassCounts<5>>::Config config{.bounds = test::small_room};
+  for (const double bad : {0.0, -1.0, 1e7, std::nan("")}) {
+    config.semantics.prior = bad;
+    EXPECT_REFUSED((VoxelMap<RayCast, ClassCounts<5>>(config)), "prior");
+  }
 }
 
 TEST(OccupancyTable, IsTheLogisticFunctionAndItsEntropy) {

@@ -73,7 +73,7 @@ class KnownVoxels {
     return b ? inside & ~b->explored : inside;
   }
   /// All that is known of a block (any block), or none; good until the map changes.
-  [[nodiscard]] const VoxelBlock* block(const Eigen::Vector3i& block) const { return blocks_.find(block); }
+  [[nodiscard]] const Block* block(const Eigen::Vector3i& block) const { return blocks_.find(block); }
 
   [[nodiscard]] double clearance_m() const { return clearance_m_; }
   [[nodiscard]] bool navigable(const Eigen::Vector3i& voxel) const {

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <vantage/concepts/map.hpp>
+#include <vantage/core/assert.hpp>
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
 #include <vantage/core/parallel.hpp>
@@ -47,9 +48,9 @@ struct ClassedBlock : VoxelBlock {
 ///
 /// A voxel is explored once a frame hit or passed it. What can be asked of voxels: KnownVoxels. Memory: 4 bytes for
 /// each block of 8^3 voxels that fits into the box, and 4.75 bytes a voxel (with classes 4 n more) of the blocks that
-/// were touched, in slabs of 64. Models UncertainMap, DepthMap, NavigableMap, RegionMap<frontier>, CoverageMap,
-/// ForetellsRefusal and Persistent. Const members may run concurrently; `integrate` uses all threads, and its result
-/// does not depend on their number.
+/// were touched, in slabs of 64. Models UncertainMap, DepthMap, NavigableMap,
+/// RegionMap<frontier>, CoverageMap, ForetellsRefusal and Persistent; with classes Renders<channel::Semantics>. Const
+/// members may run concurrently; `integrate` uses all threads, and its result does not depend on their number.
 template <class Update = RayCast, class Semantics = NoClasses, class Clearance = BallInFreeVoxels>
 class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
   using Block = ClassedBlock<Semantics>;
@@ -65,6 +66,7 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     double clearance_m = 0.3;  ///< that the robot needs around its centre, >= 0, at most 24 voxels
     DepthRange range = {};
     Update update = {};
+    [[no_unique_address]] Semantics semantics = {};
     std::size_t max_bytes = std::size_t{4} << 30;  ///< refuse what would need more memory
   };
 
@@ -90,12 +92,12 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
 
   [[nodiscard]] const Config& config() const { return config_; }
 
-  /// Draws Depth, Entropy, Uncertainty and InformationGain, in any combination; see render_voxels. Entropy
-  /// and gain reach as far as the depth range.
+  /// Draws Depth, Entropy, Uncertainty, InformationGain and, with classes, Semantics, in any combination; see
+  /// render_voxels. All but depth reach as far as the depth range.
   template <class... Channels>
   void render(const View& view, const Camera& camera, Rendering<Channels...>& out) const
-      requires(renders_voxels<Channels...>) {
-    render_voxels(*this, config_.update.one_voxel(), config_.range.max_m, view, camera, out);
+      requires(renders_voxels<Semantics, Channels...>) {
+    render_voxels(*this, config_.update.one_voxel(), config_.semantics, config_.range.max_m, view, camera, out);
   }
 
   /// Pixels of each class seen in a voxel of the grid; none of it before any was.
@@ -108,8 +110,18 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
   }
   /// The class seen most often in a voxel of the grid, the lowest of several; 0 = unknown.
   [[nodiscard]] std::uint16_t label(const Eigen::Vector3i& voxel) const requires(Semantics::classes > 0) {
-    const auto counts = class_counts(voxel);
+    const Block* b = blocks_.find(block_of(voxel));
+    if (!b) return 0;
+    const auto counts = b->classes.of(local_of(voxel));
     return static_cast<std::uint16_t>(std::ranges::max_element(counts) - counts.begin());
+  }
+  /// How likely it is that what is in a voxel of the grid is of a class (below Semantics::classes): the mean of a
+  /// Dirichlet posterior, see ClassCounts. They sum to 1 over all classes, 0 = unknown included; label()'s is the most.
+  [[nodiscard]] double class_probability(const Eigen::Vector3i& voxel, std::uint16_t label) const
+      requires(Semantics::classes > 0) {
+    VANTAGE_ASSERT(label < Semantics::classes);
+    const Block* b = blocks_.find(block_of(voxel));
+    return config_.semantics.probability(b ? &b->classes : nullptr, local_of(voxel), label);
   }
 
   void save(Sink& sink) const;
@@ -124,6 +136,7 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     check.done();
     c.range.validate();
     c.update.validate();
+    c.semantics.validate();
     return c;
   }
   // Checks a frame, and where it can change something.
