@@ -31,7 +31,7 @@ class KnownVoxels {
  public:
   [[nodiscard]] const VoxelGrid& grid() const { return grid_; }
   [[nodiscard]] Box3 bounds() const { return grid_.box(); }
-  /// Of the index and all blocks; what is kept from frame to frame is not counted.
+  /// Of the index and all blocks; what a frame needs, kept for the next, is not counted.
   [[nodiscard]] std::size_t bytes() const { return blocks_.bytes(); }
 
   /// Unknown outside of the grid.
@@ -40,22 +40,25 @@ class KnownVoxels {
     const Eigen::Vector3i voxel = grid_.voxel_at(p);
     return grid_.contains(voxel) ? state(voxel) : Space::unknown;
   }
-  // Of a voxel of the grid.
+  /// Of any voxel: unknown outside of the grid, before it is explored, and while that was too little to tell.
   [[nodiscard]] Space state(const Eigen::Vector3i& voxel) const {
     const Block* b = blocks_.find(block_of(voxel));
     if (!b) return Space::unknown;
     const std::size_t local = local_of(voxel);
     return b->free[local] ? Space::free : b->occupied[local] ? Space::occupied : Space::unknown;
   }
+  /// Whether a measurement hit or passed it; of any voxel, false outside of the grid.
   [[nodiscard]] bool explored(const Eigen::Vector3i& voxel) const {
     const Block* b = blocks_.find(block_of(voxel));
     return b && b->explored[local_of(voxel)];
   }
+  /// ln(p / (1 - p)), p its probability of being occupied; of any voxel, 0 outside of the grid and until it is
+  /// explored.
   [[nodiscard]] float log_odds(const Eigen::Vector3i& voxel) const {
     const Block* b = blocks_.find(block_of(voxel));
     return b ? b->log_odds[local_of(voxel)] : 0;
   }
-  /// That it is occupied; 0.5 before anything is known.
+  /// That it is occupied; of any voxel, 0.5 outside of the grid and until it is explored.
   [[nodiscard]] double probability(const Eigen::Vector3i& voxel) const { return probability_of(log_odds(voxel)); }
 
   // Of whole blocks.
