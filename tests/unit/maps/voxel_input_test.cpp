@@ -5,6 +5,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <vantage/core/bytes.hpp>
@@ -111,6 +114,29 @@ TEST(VoxelMapInput, LabelsAreCountedWhereTheyAreSeen) {
   f.labels(3, 3) = 4;
   EXPECT_REFUSED((map.check(f), 0), "label 4");
   EXPECT_NO_THROW(corridor<RayCast>().check(f)) << "labels do not matter to others";
+}
+
+TEST(VoxelMapInput, TakesTheMemoryItSays) {
+  const auto used = []<class M>(M map) {
+    const std::size_t empty = map.bytes();
+    for (std::uint64_t k = 0; k < 8; ++k) map.integrate(test::random_frame(Rng(4).fork(k)));
+    return std::pair(map.bytes() - empty, map.known_blocks().size());
+  };
+  const auto config = []<class C>(C c) {
+    c.bounds = test::small_room;
+    c.voxel_m = 0.02;
+    c.clearance_m = 0.1;
+    return c;
+  };
+  using Plain = VoxelMap<RayCast>;
+  using Classed = VoxelMap<RayCast, ClassCounts<6>>;
+  const auto [plain, blocks] = used(Plain(config(Plain::Config{})));
+  const auto [classed, same_blocks] = used(Classed(config(Classed::Config{})));
+  ASSERT_GT(blocks, 640U);
+  ASSERT_EQ(blocks, same_blocks);
+  const double voxels = 512.0 * static_cast<double>((blocks + 63) / 64 * 64);  // of whole slabs
+  EXPECT_NEAR(static_cast<double>(plain) / voxels, 4.65, 0.025);
+  EXPECT_EQ(static_cast<double>(classed - plain) / voxels, 4 * 6);
 }
 
 TEST(VoxelMapInput, ChecksConfigsAndFrames) {

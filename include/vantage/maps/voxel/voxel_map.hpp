@@ -47,7 +47,7 @@ struct ClassedBlock : VoxelBlock {
 /// - Clearance: where a robot fits, BallInFreeVoxels or NoOccupiedCentreInBall
 ///
 /// A voxel is explored once a frame hit or passed it. What can be asked of voxels: KnownVoxels. Memory: 4 bytes for
-/// each block of 8^3 voxels that fits into the box, and 4.75 bytes a voxel (with classes 4 n more) of the blocks that
+/// each block of 8^3 voxels that fits into the box, and 4.65 bytes a voxel (with n classes 4 n more) of the blocks that
 /// were touched, in slabs of 64. Models UncertainMap, DepthMap, NavigableMap,
 /// RegionMap<frontier>, CoverageMap, ForetellsRefusal and Persistent; with classes Renders<channel::Semantics>. Const
 /// members may run concurrently; `integrate` uses all threads, and its result does not depend on their number.
@@ -67,7 +67,9 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     DepthRange range = {};
     Update update = {};
     [[no_unique_address]] Semantics semantics = {};
-    std::size_t max_bytes = std::size_t{4} << 30;  ///< refuse what would need more memory
+    /// Refuse what would need more memory for index and blocks: bytes(). What a frame needs is not counted: about 210
+    /// bytes for each block of the box around what its camera sees, and 9 for each that was ever touched.
+    std::size_t max_bytes = std::size_t{4} << 30;
   };
 
   /// Throws Error naming what is bad, or if the box holds more voxels than max_bytes (or 2^31 blocks) allow.
