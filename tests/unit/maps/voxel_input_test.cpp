@@ -204,6 +204,30 @@ TEST(VoxelMapInput, WhatWasLoadedIsTheSameMap) {
   EXPECT_REFUSED((other.load(again), 0), "another kind");
 }
 
+TEST(VoxelMapInput, AMapOfVeryManyClassesIsLoaded) {
+  using M = VoxelMap<RayCast, ClassCounts<4096>>;  // 8 MB a block: more than a stack holds
+  const M::Config config{.bounds = {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1.8, 1, 1)}, .clearance_m = 0};
+  M map(config);
+  Frame f = wall(1.6F);
+  f.labels.setConstant(20, 20, 4095);
+  map.integrate(f);
+  ASSERT_EQ(map.known_blocks().size(), 2U);
+  const std::vector<std::byte> saved = bytes(map);
+  M loaded(config);
+  Source source(saved);
+  loaded.load(source);
+  source.done();
+  EXPECT_TRUE(bytes(loaded) == saved);
+  EXPECT_EQ(loaded.label({8, 2, 2}), 4095);
+  EXPECT_GT(loaded.class_probability({8, 2, 2}, 4095), 0.9);
+  Source half(std::span<const std::byte>(saved).first(saved.size() - 1));
+  EXPECT_THROW(loaded.load(half), Error);
+  EXPECT_TRUE(bytes(loaded) == saved) << "unchanged";
+  Rendering<channel::Semantics> image;
+  loaded.render(f.view, Camera::from_fov(2, 2, deg(5)), image);
+  EXPECT_GT(image.probability[4095](0, 0), image.probability[0](0, 0));
+}
+
 TEST(VoxelMapInput, DamagedBytesAreRefusedOrAMap) {
   using M = VoxelMap<RayCast, ClassCounts<5>>;
   const M map = room<M>();

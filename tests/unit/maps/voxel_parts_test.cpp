@@ -156,6 +156,19 @@ TEST(VoxelParts, BlocksStayWhereTheyAre) {
   EXPECT_REFUSED((VoxelBlocks<VoxelBlock>(grid, 1000)), "max_bytes");
 }
 
+TEST(VoxelParts, LargeBlocksComeInSmallSlabs) {
+  const VoxelGrid grid = VoxelGrid::on_lattice({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(8, 8, 8)}, 0.1);
+  const auto of_one = []<class Block>(const VoxelGrid& g, Block*) {
+    VoxelBlocks<Block> blocks(g, std::size_t{1} << 30);
+    const std::size_t empty = blocks.bytes();
+    blocks.reserve(1);
+    return (blocks.bytes() - empty) / sizeof(Block);
+  };
+  EXPECT_EQ(of_one(grid, static_cast<ClassCounts<100>::Block*>(nullptr)), 64U);
+  EXPECT_EQ(of_one(grid, static_cast<ClassCounts<1024>::Block*>(nullptr)), 8U);
+  EXPECT_EQ(of_one(grid, static_cast<ClassCounts<20000>::Block*>(nullptr)), 1U);
+}
+
 TEST(VoxelParts, ClassCountsKeepTheirProportions) {
   ClassCounts<3>::Block block;
   for (int i = 0; i < 5; ++i) block.add(17, 2);

@@ -3,6 +3,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -86,7 +87,10 @@ class VoxelBlocks {
   }
 
  private:
-  static constexpr std::size_t slab_blocks = 64, slab_bytes = slab_blocks * sizeof(Block);
+  // 64, or as many as 16 MB hold of blocks that are large.
+  static constexpr std::size_t slab_blocks =
+      std::bit_floor(std::clamp<std::size_t>((std::size_t{16} << 20) / sizeof(Block), 1, 64));
+  static constexpr std::size_t slab_bytes = slab_blocks * sizeof(Block);
 
   [[nodiscard]] std::size_t new_slabs(std::size_t more) const {
     return std::max((count() + more + slab_blocks - 1) / slab_blocks, slabs_.size()) - slabs_.size();

@@ -48,7 +48,7 @@ struct ClassedBlock : VoxelBlock {
 ///
 /// A voxel is explored once a frame hit or passed it. What can be asked of voxels: KnownVoxels. Memory: 4 bytes for
 /// each block of 8^3 voxels that fits into the box, and 4.65 bytes a voxel (with n classes 4 n more) of the blocks that
-/// were touched, in slabs of 64. Models UncertainMap, DepthMap, NavigableMap,
+/// were touched, in slabs of 64 (fewer if these are large). Models UncertainMap, DepthMap, NavigableMap,
 /// RegionMap<frontier>, CoverageMap, ForetellsRefusal and Persistent; with classes Renders<channel::Semantics>. Const
 /// members may run concurrently; `integrate` uses all threads, and its result does not depend on their number.
 template <class Update = RayCast, class Semantics = NoClasses, class Clearance = BallInFreeVoxels>
@@ -273,7 +273,9 @@ void VoxelMap<Update, Semantics, Clearance>::load(Source& source) {
     for (int& i : at) i = source.get<std::int32_t>();
     if (!loaded.blocks_.contains(at)) refuse(n, concat("at (", at.transpose(), ")"), "in the grid");
     if (loaded.blocks_.slot(at) >= 0) refuse(n, concat("at (", at.transpose(), ")"), "each block once");
-    Block b;
+    loaded.blocks_.reserve(1);
+    loaded.blocks_.make(at);
+    Block& b = loaded.blocks_[static_cast<std::size_t>(n)];  // in place: with many classes it would fill a stack
     for (std::uint64_t& slice : b.explored.slice) source.get(slice);
     if (!b.explored.any() || !((b.explored & ~VoxelBits::inside(grid_, at)) == VoxelBits{}))
       refuse(n, "explores no voxel of the grid, or others", "some voxels of the grid");
@@ -291,9 +293,6 @@ void VoxelMap<Update, Semantics, Clearance>::load(Source& source) {
     }
     b.free = b.explored & config_.update.free(b.log_odds);
     b.occupied = b.explored & config_.update.occupied(b.log_odds);
-    loaded.blocks_.reserve(1);
-    loaded.blocks_.make(at);
-    loaded.blocks_[static_cast<std::size_t>(n)] = b;
   }
   loaded.derive();
   *this = std::move(loaded);
