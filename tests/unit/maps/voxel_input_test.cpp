@@ -228,6 +228,31 @@ TEST(VoxelMapInput, AMapOfVeryManyClassesIsLoaded) {
   EXPECT_GT(image.probability[4095](0, 0), image.probability[0](0, 0));
 }
 
+/// As an integrate() leaves it that made a block, and then found no memory to go on with.
+struct Interrupted : VoxelMap<RayCast> {
+  using Known = KnownVoxels<ClassedBlock<NoClasses>, BallInFreeVoxels>;
+  explicit Interrupted(VoxelMap<RayCast> map) : VoxelMap<RayCast>(std::move(map)) {}
+  void make(const Eigen::Vector3i& block) {
+    this->Known::blocks_.reserve(1);
+    this->Known::blocks_.make(block);
+  }
+};
+TEST(VoxelMapInput, WhatRanOutOfMemoryIsSavedAsWhatItKnows) {
+  Interrupted map(after(corridor<RayCast>(), wall(1.0F)));
+  const std::vector<std::byte> saved = bytes(map);
+  const std::size_t known = map.known_blocks().size();
+  map.make({2, 0, 0});
+  ASSERT_EQ(map.known_blocks().size(), known + 1);
+  EXPECT_EQ(bytes(map), saved);
+  auto loaded = corridor<RayCast>();
+  const std::vector<std::byte> again = bytes(map);
+  Source source(again);
+  loaded.load(source);
+  source.done();
+  EXPECT_EQ(row(loaded), "-----#..............");
+  EXPECT_EQ(row(after(VoxelMap<RayCast>(map), wall(3.6F))), row(after(loaded, wall(3.6F)))) << "it learns on";
+}
+
 TEST(VoxelMapInput, DamagedBytesAreRefusedOrAMap) {
   using M = VoxelMap<RayCast, ClassCounts<5>>;
   const M map = room<M>();

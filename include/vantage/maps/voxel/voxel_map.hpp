@@ -246,8 +246,12 @@ void VoxelMap<Update, Semantics, Clearance>::count_classes(const Frame& frame) r
 template <class Update, class Semantics, class Clearance>
 void VoxelMap<Update, Semantics, Clearance>::save(Sink& sink) const {
   sink.put(std::string_view(signature()));
-  sink.put(static_cast<std::uint64_t>(blocks_.count()));
+  // A block that explores nothing was made by an integrate() that ran out of memory: it says as much as none.
+  std::uint64_t count = 0;
+  for (std::size_t s = 0; s < blocks_.count(); ++s) count += blocks_[s].explored.any();
+  sink.put(count);
   for (std::size_t s = 0; s < blocks_.count(); ++s) {
+    if (!blocks_[s].explored.any()) continue;
     for (const int i : blocks_.known()[s]) sink.put(static_cast<std::int32_t>(i));
     for (const std::uint64_t slice : blocks_[s].explored.slice) sink.put(slice);
     sink.put(std::span<const float>(blocks_[s].log_odds));
