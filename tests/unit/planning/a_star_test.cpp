@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include <vantage/planning/a_star.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -10,8 +11,10 @@
 #include <gtest/gtest.h>
 
 #include <vantage/core/rng.hpp>
+#include <vantage/planning/shortcut.hpp>
 
 #include "drawn_voxels.hpp"
+#include "tight_box.hpp"
 
 namespace vantage {
 namespace {
@@ -75,6 +78,50 @@ TEST_F(TwoRooms, WhatCannotBeReachedIsInfinitelyFar) {
   for (const View& start : {nadir(-1, 1, 1), nadir(1e300, 1, 1)})
     for (const double length : router.lengths_m(map, start, goals)) EXPECT_EQ(length, infinity);
   EXPECT_TRUE(router.lengths_m(map, from, {}).empty());
+}
+
+TEST_F(TwoRooms, LeavesAVoxelThatTheMapHoldsOccupied) {
+  map.draw({4, 3, 3}, Space::occupied);
+  const AStar router;
+  const View from = at(grid, {4, 3, 3}), goal = at(grid, {2, 3, 3}), before = at(grid, {2, 3, 4});
+  const double length_there_m = router.lengths_m(map, from, {&goal, 1}).front();
+  EXPECT_GE(length_there_m, 0.5);
+  EXPECT_LE(length_there_m, 0.25 * 2 * std::sqrt(2.0) + 1e-9);
+  const std::vector<View> path = router.path(map, from, goal);
+  ASSERT_GE(path.size(), 2u);
+  EXPECT_EQ(path.front().T_W_C.matrix(), from.T_W_C.matrix());
+  EXPECT_NEAR(length_m(path), length_there_m, 1e-9);
+  for (std::size_t i = 1; i < path.size(); ++i) EXPECT_EQ(map.state(grid.voxel_at(path[i].position())), Space::free);
+  // No other voxel that is occupied is open: neither as a goal nor on the way.
+  EXPECT_EQ(router.lengths_m(map, before, {&from, 1}).front(), infinity);
+  map.draw_all([&](const Eigen::Vector3i& v) {
+    return (v - Eigen::Vector3i(4, 3, 3)).cwiseAbs().maxCoeff() <= 1 ? Space::occupied : Space::free;
+  });
+  const View beside = look_at(from.position() + Eigen::Vector3d(0.1, 0, 0), from.position());
+  const std::vector<View> goals = {goal, at(grid, {5, 3, 3}), at(grid, {7, 7, 4}), beside};
+  const std::vector<double> lengths_m = router.lengths_m(map, from, goals);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(lengths_m[i], infinity) << i;
+    EXPECT_TRUE(router.path(map, from, goals[i]).empty()) << i;
+  }
+  EXPECT_NEAR(lengths_m[3], 0.1, 1e-12) << "in the robot's own voxel";
+}
+
+TEST(AStar, FindsNothingInABoxThatIsSmallerThanTheBody) {
+  for (const double length_m : {1.2, 0.1}) {
+    const VoxelMap<> map = test::tight_box(length_m, std::min(length_m, 0.4));
+    ASSERT_GT(map.counts().free, 0u);
+    ASSERT_EQ(map.counts().navigable, 0u);
+    const View from = at(map.grid(), {0, 0, 0});
+    const std::vector<View> goals = {nadir(0.75, 0.25, 0.25), nadir(1.15, 0.05, 0.05), nadir(-0.05, 0.05, 0.05)};
+    const auto expect_nothing = [&](const auto& router) {
+      for (const double length : router.lengths_m(map, from, goals)) EXPECT_EQ(length, infinity);
+      for (const View& goal : goals) EXPECT_TRUE(router.path(map, from, goal).empty());
+      EXPECT_EQ(router.lengths_m(map, from, {&from, 1}).front(), 0);
+    };
+    expect_nothing(AStar{});
+    expect_nothing(Shortcut<AStar>{});
+  }
 }
 
 TEST_F(TwoRooms, CountsTheWayToAndFromTheCentres) {

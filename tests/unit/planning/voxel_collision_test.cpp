@@ -9,11 +9,13 @@
 
 #include <vantage/core/parallel.hpp>
 #include <vantage/core/rng.hpp>
+#include <vantage/planning/rrt_star.hpp>
 #include <vantage/planning/voxel_collision.hpp>
 
 #include "drawn_voxels.hpp"
 #include "message_of.hpp"
 #include "random_pose.hpp"
+#include "tight_box.hpp"
 
 namespace vantage {
 namespace {
@@ -216,6 +218,35 @@ TEST(VoxelCollision, ABoxOnItsWayMissesNothing) {
   EXPECT_GT(met, 30);
   EXPECT_GT(free, 100);
   EXPECT_LT(in_doubt, 150);
+}
+
+TEST(VoxelCollision, NowhereFreeInABoxThatIsSmallerThanTheBody) {
+  const VoxelMap<> map = test::tight_box();
+  const double r = map.clearance_m();
+  const auto at = [](const Eigen::Vector3d& p) { return Eigen::Isometry3d(Eigen::Translation3d(p)); };
+  for (int x = 0; x < map.grid().size().x(); ++x) {
+    const Eigen::Vector3d p = map.grid().centre({x, 2, 2});
+    EXPECT_TRUE(collides(map, Ball{p, r}));
+    EXPECT_TRUE(collides(map, OrientedBox{at(p), Eigen::Vector3d::Constant(r)}));
+    EXPECT_EQ(collides(map, Ball{p, 0.04}), x >= 8) << "but for what is smaller";
+    EXPECT_FALSE(collides(map, Ball{p, r}, obstacle::Occupied{})) << "nothing is there";
+  }
+  // A planner for bodies finds no way, not even to where it is.
+  const struct {
+    const VoxelMap<>& map;
+    double half_m;
+    [[nodiscard]] bool is_free(const Eigen::Isometry3d& pose) const {
+      return !collides(map, OrientedBox{pose, Eigen::Vector3d::Constant(half_m)});
+    }
+    [[nodiscard]] bool is_free(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
+      return !collides_on_way(map, {a, Eigen::Vector3d::Constant(half_m)}, b, 0.01);
+    }
+  } large{map, r}, small{map, 0.05};
+  const RrtStar<> planner({.space = {.bounds = map.bounds()}, .samples = 200});
+  const Eigen::Isometry3d from = at({0.15, 0.15, 0.15}), to = at({0.65, 0.25, 0.25});
+  EXPECT_FALSE(planner.plan(from, to, large, Rng(1)));
+  EXPECT_FALSE(planner.plan(from, from, large, Rng(1)));
+  EXPECT_TRUE(planner.plan(from, to, small, Rng(1)));
 }
 
 TEST(VoxelCollision, TheSameFromAllThreads) {

@@ -8,10 +8,15 @@
 #include <tuple>
 #include <vector>
 
+#include <vantage/loop/nbv_loop.hpp>
+#include <vantage/planning/a_star.hpp>
 #include <vantage/sampler/frontier.hpp>
+#include <vantage/selector/travel_tradeoff.hpp>
+#include <vantage/utility/unexplored.hpp>
 
 #include "message_of.hpp"
 #include "sampler_maps.hpp"
+#include "tight_box.hpp"
 
 namespace vantage {
 namespace {
@@ -75,6 +80,17 @@ TEST(FrontierSampler, SpreadsOverNearAndFarFrontiers) {
   // Fewer than there are clusters: the nearest ones.
   for (const View& v : test::sample(Frontier({.candidates = 2}), map, {.here = here}, 1).views)
     EXPECT_LT(v.position().x(), 5);
+}
+
+TEST(FrontierSampler, ProposesNothingInABoxThatIsSmallerThanTheBody) {
+  const VoxelMap<> map = test::tight_box();
+  ASSERT_EQ(map.counts().navigable, 0u);
+  ASSERT_EQ(map.regions(frontier{}).size(), 16u);
+  const View start = look_at({0.15, 0.25, 0.25}, {1, 0.25, 0.25});
+  EXPECT_TRUE(test::sample(Frontier{}, map, {.here = start}, 1).views.empty());
+  NbvLoop loop{map, Unexplored{}, Frontier{}, TravelTradeoff{AStar{}}};
+  Rng rng(1);
+  EXPECT_FALSE(loop.plan({.here = start}, rng));
 }
 
 TEST(FrontierSampler, LeavesCrumbsOut) {

@@ -8,10 +8,12 @@
 #include <type_traits>
 #include <vector>
 
+#include <vantage/sampler/local.hpp>
 #include <vantage/sampler/roi_and_local.hpp>
 
 #include "message_of.hpp"
 #include "sampler_maps.hpp"
+#include "tight_box.hpp"
 
 namespace vantage {
 namespace {
@@ -95,6 +97,18 @@ TEST(RoiAndLocal, LocalViewsWhereThereIsNoRegion) {
   const std::vector<View> views = test::sample(RoiAndLocal<low_confidence>{}, map, {.here = here}, 1).views;
   ASSERT_EQ(views.size(), 100u);
   for (const View& v : views) EXPECT_LE(distance_m(v, here), 0.5 + 1e-9);
+}
+
+TEST(RoiAndLocal, TurnsOnTheSpotInABoxThatIsSmallerThanTheBody) {
+  const VoxelMap<> map = test::tight_box();
+  ASSERT_EQ(map.counts().navigable, 0u);
+  ASSERT_FALSE(map.regions(frontier{}).empty());
+  const View start = look_at({0.15, 0.25, 0.25}, {1, 0.25, 0.25});
+  for (const std::vector<View>& views : {test::sample(RoiAndLocal<frontier>{}, map, {.here = start}, 1).views,
+                                         test::sample(Local{}, map, {.here = start}, 1).views}) {
+    EXPECT_EQ(views.size(), 100u);
+    for (const View& v : views) EXPECT_TRUE(same_place(v, start));
+  }
 }
 
 TEST(RoiAndLocal, TakesBothKindsUnlessToldOtherwise) {

@@ -19,6 +19,7 @@
 #include <vantage/selector/first_of_branch.hpp>
 
 #include "drawn_voxels.hpp"
+#include "tight_box.hpp"
 
 namespace vantage {
 namespace {
@@ -139,6 +140,20 @@ TEST_F(Corridor, ProposesNothingWhereItCannotGo) {
   closed.draw_all([](const Eigen::Vector3i&) { return Space::occupied; });
   for (const View& v : grow(tree, closed, here, 1, Rightmost{}).views)  // within its own voxel at most
     EXPECT_EQ(grid.voxel_at(v.position()), grid.voxel_at(here.position()));
+}
+
+TEST(ViewTree, KeepsToWhereItIsInABoxThatIsSmallerThanTheBody) {
+  for (const double length_m : {1.2, 0.1}) {
+    const VoxelMap<> box = test::tight_box(length_m, std::min(length_m, 0.4));
+    ASSERT_EQ(box.counts().navigable, 0u);
+    const View start = look_at(box.grid().centre({0, 0, 0}), {5, 0.05, 0.05});
+    const Rightmost scorer;
+    ViewTree tree;
+    Rng rng(3);
+    // Within the ball around the robot, which is open because the robot is there.
+    for (const View& v : tree.sample(box, {.here = start}, Score(scorer), rng).views)
+      EXPECT_LE(distance_m(v, start), 0.3 + 0.05 * std::sqrt(3.0) + 1e-9);
+  }
 }
 
 TEST_F(Corridor, TheSameSeedTheSameBitsWithAnyNumberOfThreads) {
