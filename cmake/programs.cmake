@@ -21,8 +21,12 @@ foreach(kind golden data) # beside the checkout, where they exist
   endif()
   set(VANTAGE_${upper}_DIR "${beside}" CACHE PATH "Folder of the shared ${kind}; empty: do without")
 endforeach()
-if(VANTAGE_REQUIRE_GOLDEN AND NOT IS_DIRECTORY "${VANTAGE_GOLDEN_DIR}")
-  message(FATAL_ERROR "VANTAGE_REQUIRE_GOLDEN: VANTAGE_GOLDEN_DIR is '${VANTAGE_GOLDEN_DIR}', which is no folder")
+if(VANTAGE_REQUIRE_GOLDEN) # a test without its numbers is skipped: they must be there
+  foreach(part field surfel/case_A surfel/case_B surfel/confidence surfel/voxel)
+    if(NOT IS_DIRECTORY "${VANTAGE_GOLDEN_DIR}/${part}")
+      message(FATAL_ERROR "VANTAGE_REQUIRE_GOLDEN: VANTAGE_GOLDEN_DIR is '${VANTAGE_GOLDEN_DIR}', which has no ${part}/")
+    endif()
+  endforeach()
 endif()
 
 set(CMAKE_CXX_EXTENSIONS OFF)

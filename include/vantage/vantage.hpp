@@ -9,6 +9,7 @@
 #include <vantage/concepts/policy.hpp>
 #include <vantage/concepts/preset.hpp>
 #include <vantage/concepts/world.hpp>
+#include <vantage/core/assert.hpp>
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/dense.hpp>
 #include <vantage/core/error.hpp>

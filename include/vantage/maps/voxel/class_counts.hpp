@@ -19,7 +19,7 @@ struct NoClasses {
   static constexpr std::string_view name = "NoClasses";
   static constexpr std::size_t classes = 0;
   struct Block {};
-  struct Mixture {
+  struct Mixture {  ///< of nothing
     explicit Mixture(const auto&) {}
   };
   void validate() const {}

@@ -117,8 +117,8 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     const auto counts = b->classes.of(local_of(voxel));
     return static_cast<std::uint16_t>(std::ranges::max_element(counts) - counts.begin());
   }
-  /// How likely it is that a voxel of the grid, if it is occupied, is of a class (below Semantics::classes): the mean
-  /// of a Dirichlet posterior, see ClassCounts. Over all classes, 0 = unknown included, the sum is 1; label() has the
+  /// How likely it is that what is in a voxel of the grid is of a class (below Semantics::classes): the mean of a
+  /// Dirichlet posterior, see ClassCounts. They sum to 1 over all classes, 0 = unknown included; label()'s is the
   /// most.
   [[nodiscard]] double class_probability(const Eigen::Vector3i& voxel, std::uint16_t label) const
       requires(Semantics::classes > 0) {
