@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "flight.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -44,10 +46,11 @@ Picture growth_strip(const Referee& referee, const MissionRecord& record) {
   constexpr int gap = 12;
   std::vector<Picture> parts;
   for (int k = 1; k <= 4; ++k) {
-    std::size_t last = 0;  // until then
-    while (last + 1 < record.steps.size() && record.steps[last + 1].elapsed_s <= record.steps.back().elapsed_s * k / 4)
-      ++last;
-    parts.push_back(from_above(referee.growth()[last], referee, record, 480));
+    std::uint64_t step = record.steps.front().index;  // the last until then
+    for (const StepRecord& r : record.steps)
+      if (r.elapsed_s <= record.steps.back().elapsed_s * k / 4) step = r.index;
+    parts.push_back(
+        from_above(*std::ranges::find(referee.growth(), step, &Referee::Growth::step), referee, record, 480));
   }
   Picture all(4 * parts[0].width() + 3 * gap, parts[0].height());
   for (int y = 0; y < all.height(); ++y)

@@ -103,7 +103,11 @@ TEST_F(ExploreMission, BadInputIsOneLineAndCodeTwo) {
     EXPECT_NE(e.err.find(says), e.err.npos) << e.err;
     EXPECT_EQ(std::count(e.err.begin(), e.err.end(), '\n'), 1) << e.err;
   };
-  refused("--room 1 --start 0 0 -5", "start");
+  refused("--room 1 --start 0 0 -5", "outside of the scene; expected --start X Y Z between");
+  refused("--room 1 --method fbe --body 9", "within 9 m of a surface");
+  refused("--room 1 --method fbe --refine 5", "--refine");
+  refused("--room 1 --method nbvp --test-views 5", "--test-views");
+  refused("--scene '' --method fbe", "--scene");
   refused("--room 1 --map-voxel 0", "--map-voxel");
   refused("--object a.obj --method fbe", "--scene or --room");
 }
