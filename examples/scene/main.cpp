@@ -11,8 +11,8 @@ namespace {
 
 void run(const scene::Options& o) {
   scene::validate(o);
-  vantage::make_folder(o.out);
   const scene::Input input = scene::load(o);
+  vantage::make_folder(o.out);  // nothing is made of bad input
   std::cerr << input.name << (input.note.empty() ? "" : ": ") << input.note << '\n';
   scene::fly_mission(o, input, std::cerr);
   std::cout << (o.out / "report.html").string() << '\n';
