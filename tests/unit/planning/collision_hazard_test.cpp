@@ -18,12 +18,7 @@
 namespace vantage {
 namespace {
 
-using test::add_triangle;
-using test::at;
-using test::corners_of;
-using test::ground;
-using test::shapes_of_half_a_metre;
-using test::surface_of;
+using namespace test;  // scenes and shapes
 using Verdict = CollisionVerdict;
 
 TEST(CollisionHazard, BadPosesAreInCollision) {

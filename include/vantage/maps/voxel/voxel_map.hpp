@@ -118,8 +118,7 @@ class VoxelMap : public KnownVoxels<ClassedBlock<Semantics>, Clearance> {
     return static_cast<std::uint16_t>(std::ranges::max_element(counts) - counts.begin());
   }
   /// How likely it is that what is in a voxel of the grid is of a class (below Semantics::classes): the mean of a
-  /// Dirichlet posterior, see ClassCounts. They sum to 1 over all classes, 0 = unknown included; label()'s is the
-  /// most.
+  /// Dirichlet posterior, see ClassCounts. They sum to 1 over all classes, 0 = unknown included; label() has the most.
   [[nodiscard]] double class_probability(const Eigen::Vector3i& voxel, std::uint16_t label) const
       requires(Semantics::classes > 0) {
     VANTAGE_ASSERT(label < Semantics::classes);
