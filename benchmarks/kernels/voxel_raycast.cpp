@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 // Rays into a voxel map of a room of 6 x 5 x 2.5 m seen from eight places, for the first occupied voxel; whole images
-// of depth, entropy, expected information gain and 8 classes; and the unexplored voxels seen from 100 candidates. Items
-// are rays, or candidates. voxel/raycast runs on one thread, as OctoMap 1.9.7's castRay does, if it is there, on the
-// same map (by way of a .bt file) and the same rays in the same run; octomap_ratio = its time / ours, measured in turn.
-// All else uses all threads.
+// of depth, entropy, expected information gain and 8 classes; and the unexplored voxels and the unseen sides seen from
+// 100 candidates. Items are rays, or candidates. voxel/raycast runs on one thread, as OctoMap 1.9.7's castRay does, if
+// it is there, on the same map (by way of a .bt file) and the same rays in the same run; octomap_ratio = its time /
+// ours, measured in turn. All else uses all threads.
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <numeric>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@
 
 #include <vantage/io/octomap_bt.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
+#include <vantage/maps/voxel/with_sides.hpp>
 #include <vantage/utility/unexplored.hpp>
+#include <vantage/utility/unseen_sides.hpp>
 #ifdef VANTAGE_HAS_OCTOMAP
 #include <octomap/octomap.h>
 #endif
@@ -135,6 +138,19 @@ void unexplored(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(views.size()));
 }
 
+/// 64 x 64 px each, of the room in 5 cm voxels.
+void unseen_sides(benchmark::State& state) {
+  const auto map = room_map<WithSides<>>(0.05);
+  Rng rng(5);
+  std::vector<View> views;
+  for (int i = 0; i < 100; ++i) views.push_back(some_view(rng));
+  std::vector<double> sides(views.size());
+  const auto score = UnseenSides().prepare(map, Situation{}, rng);
+  for (auto _ : state) score({}, views, sides);
+  state.counters["sides"] = std::accumulate(sides.begin(), sides.end(), 0.0);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(views.size()));
+}
+
 BENCHMARK_CAPTURE(raycast, 20, 0.2)->Name("voxel/raycast/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(raycast, 5, 0.05)->Name("voxel/raycast/5cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(depth)->Name("voxel/render_depth/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -142,6 +158,7 @@ BENCHMARK(entropy)->Name("voxel/render_entropy/20cm")->Unit(benchmark::kMillisec
 BENCHMARK(gain)->Name("voxel/render_information_gain/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(semantics)->Name("voxel/render_semantics/20cm")->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(unexplored)->Name("voxel/unexplored/100")->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(unseen_sides)->Name("voxel/unseen_sides/100")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 

@@ -3,7 +3,6 @@
 #include "explore_results.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -32,9 +31,7 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
           {"Way", short_number(tenths(last.travelled_m)), "m", concat(plans, " views flown to")},
           {"Planning", short_number(tenths(1000 * planning_s / static_cast<double>(std::max<std::size_t>(plans, 1)))),
            "ms", o.clock == ClockKind::real ? "a view, as this machine takes" : "a view, by the modelled clock"},
-          {"Collisions", short_number(static_cast<double>(referee.collisions())), "",
-           concat("a ball of ", short_number(100 * o.body_radius_m), " cm; the nearest surface was ",
-                  short_number(std::round(100 * least_clearance_m(record))), " cm from it")},
+          {"Collisions", short_number(static_cast<double>(referee.collisions())), "", of_the_body(o, record)},
           {"Map", short_number(tenths(last.metric("megabytes"))), "MB",
            concat("voxels of ", short_number(100 * o.map_voxel()), " cm")}};
 }

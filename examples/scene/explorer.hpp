@@ -5,12 +5,16 @@
 
 #include <vantage/loop/stop_rules.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
+#include <vantage/maps/voxel/with_sides.hpp>
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/shortcut.hpp>
+#include <vantage/sampler/all_around.hpp>
+#include <vantage/sampler/fallback.hpp>
 #include <vantage/sampler/view_tree.hpp>
 #include <vantage/selector/first_of_branch.hpp>
 #include <vantage/selector/travel_tradeoff.hpp>
 #include <vantage/utility/information_gain.hpp>
+#include <vantage/utility/unseen_sides.hpp>
 
 #include "robot.hpp"
 
@@ -20,27 +24,41 @@ namespace scene {
 struct Explorer : Robot {
   using Robot::Robot;
 
-  template <class Update>
-  [[nodiscard]] VoxelMap<Update> map() const {
-    typename VoxelMap<Update>::Config c;
+  /// Of a camera of 64 x 64 pixels: a view that shows less is not worth it.
+  static constexpr double fewest_sides = 50;
+
+  template <class M>
+  [[nodiscard]] M map() const {
+    typename M::Config c;
     set(c);
-    return VoxelMap<Update>(c);
+    return M(c);
+  }
+  /// Frontiers; when none shows as much, all around from here and from anywhere.
+  [[nodiscard]] Fallback<Frontier, AllAround> frontiers_or_around() const {
+    return {frontiers(), AllAround({.field_of_view_rad = field_of_view_rad}), {.least = fewest_sides}};
+  }
+  [[nodiscard]] UnseenSides unseen_sides() const {
+    return UnseenSides({.camera = Camera::from_fov(64, 64, field_of_view_rad), .far_m = range_m});
   }
 
   /// fly(loop, stop) with the loop of a method, over a map with this update.
   template <class Update, class Stop, class F>
   void with(const std::string& method, const Stop& stop, F&& fly) const {
+    using Voxels = VoxelMap<Update>;
     const Shortcut<> route(AStar{});
-    const TravelTradeoff tradeoff(route, {.speed_m_s = speed_m_s});
+    const AnyOf until_seen{stop, UtilityBelow{fewest_sides}};
     if (method == "fbe")
-      fly(NbvLoop{map<Update>(), unexplored(), frontiers(), tradeoff}, stop);
+      fly(NbvLoop{map<WithSides<Voxels>>(), unseen_sides(), frontiers_or_around(),
+                  TravelTradeoff(route, {.delta = 3, .speed_m_s = speed_m_s})},
+          until_seen);
+    else if (method == "nbvp")
+      fly(NbvLoop{map<WithSides<Voxels>>(), unseen_sides(), ViewTree{}, FirstOfBranch({.speed_m_s = speed_m_s})},
+          until_seen);
     else if (method == "information_gain")
-      fly(NbvLoop{map<Update>(), InformationGain(sensor), frontiers(), tradeoff}, stop);
-    else if (method == "nbvp")  // a tree always proposes something
-      fly(NbvLoop{map<Update>(), unexplored(), ViewTree{}, FirstOfBranch({.speed_m_s = speed_m_s})},
-          AnyOf{stop, UtilityBelow{1e-9}});
+      fly(NbvLoop{map<Voxels>(), InformationGain(sensor), frontiers(), TravelTradeoff(route, {.speed_m_s = speed_m_s})},
+          stop);
     else
-      fly(wander(map<Update>(), route), stop);
+      fly(wander(map<Voxels>(), route), stop);
   }
 };
 

@@ -93,11 +93,14 @@ void add_flight(Page& page, const Input& input, const Referee& referee, const Mi
   write_file(page.options.out / "path.csv", path_csv(referee));
 }
 
-double least_clearance_m(const MissionRecord& record) {
-  double least = std::numeric_limits<double>::infinity();
+std::string of_the_body(const Options& o, const MissionRecord& record) {
+  double least_m = std::numeric_limits<double>::infinity();
   for (const StepRecord& r : record.steps)
-    if (const double c = r.metric("clearance_m"); c < least) least = c;
-  return least;
+    if (const double c = r.metric("clearance_m"); c < least_m) least_m = c;
+  const auto cm = [](double m) { return concat(short_number(std::round(100 * m)), " cm"); };
+  return concat(
+      "a ball of ", cm(o.body_radius_m),
+      std::isfinite(least_m) ? concat("; the nearest surface was ", cm(least_m), " from it") : "; nothing was flown");
 }
 
 }  // namespace scene

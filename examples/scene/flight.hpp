@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The vantage authors
 // SPDX-License-Identifier: MIT
 #pragma once
+#include <string>
+
 #include <vantage/mission/record.hpp>
 
 #include "input.hpp"
@@ -13,7 +15,7 @@ namespace scene {
 /// The map from above with the way and the views, how it grew, which surface was seen; path.csv: the way, a row a
 /// waypoint.
 void add_flight(Page& page, const Input& input, const Referee& referee, const MissionRecord& record);
-/// NaN or infinity if it never moved.
-double least_clearance_m(const MissionRecord& record);
+/// How large the robot's body is, and how near it came to a surface.
+std::string of_the_body(const Options& o, const MissionRecord& record);
 
 }  // namespace scene

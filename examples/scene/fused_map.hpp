@@ -6,11 +6,12 @@
 #include <utility>
 
 #include <vantage/core/rng.hpp>
-#include <vantage/eval/surface_coverage.hpp>
 #include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/marching_cubes.hpp>
 #include <vantage/geometry/mesh_components.hpp>
 #include <vantage/geometry/tsdf.hpp>
+
+#include "visible_space.hpp"
 
 namespace scene {
 
@@ -32,8 +33,7 @@ class FusedMap {
  public:
   using Measurement = Frame;
 
-  FusedMap(const Tsdf::Config& config, std::optional<SurfaceCoverage> truth)
-      : volume_(config), truth_(std::move(truth)) {}
+  FusedMap(const Tsdf::Config& config, std::optional<SeenSurface> truth) : volume_(config), truth_(std::move(truth)) {}
 
   void integrate(const Frame& frame, Rng& rng) {
     volume_.integrate(frame, rng);
@@ -41,13 +41,13 @@ class FusedMap {
   }
   [[nodiscard]] Box3 bounds() const { return volume_.bounds(); }
   [[nodiscard]] const Tsdf& volume() const { return volume_; }
-  [[nodiscard]] const std::optional<SurfaceCoverage>& truth() const { return truth_; }
+  [[nodiscard]] const std::optional<SeenSurface>& truth() const { return truth_; }
   /// The surface so far, without the crumbs that noise makes.
   [[nodiscard]] TriangleMesh mesh() const { return without_small_components(marching_cubes(volume_)); }
 
  private:
   Tsdf volume_;
-  std::optional<SurfaceCoverage> truth_;
+  std::optional<SeenSurface> truth_;
 };
 
 }  // namespace scene

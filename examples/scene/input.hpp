@@ -31,7 +31,11 @@ struct Input {
   View start;
   std::vector<View> views = {};  ///< candidates
   Box3 bounds = {};              ///< to be reconstructed
-  SurfaceSamples surface = {};   ///< what of the scene can be seen from the candidates' free space; none of a recording
+  // Of a scene, not of a recording:
+  std::optional<RayScene> rays = {};
+  SurfaceSamples surface = {};  ///< what can be seen from the candidates' free space
+
+  [[nodiscard]] SeenSurface unseen(const Options& o) const { return {surface, rays.value(), o.range_m}; }
 };
 
 /// Inside: everywhere that the robot's body reaches from the start, with a random heading that looks a little down.
@@ -42,11 +46,13 @@ inline void look_from_inside(Input& input, const Options& o) {
   input.start = scene.start.value_or(look_at(centre, centre + Eigen::Vector3d::UnitX()));
   if (!o.start.empty()) input.start.T_W_C.translation() = Eigen::Vector3d(o.start[0], o.start[1], o.start[2]);
   const Eigen::Vector3d start = input.start.position();
-  if (!input.bounds.contains(start))
-    throw Error(input.name, concat("the start (", start.transpose(), ") is outside of the scene"),
-                concat("--start X Y Z between (", input.bounds.min().transpose(), ") and (",
-                       input.bounds.max().transpose(), ")"));
-  const RayScene rays(scene);
+  if (!input.bounds.contains(start)) {
+    const auto rounded = [](const Eigen::Vector3d& p) { return ((100 * p).array().round() / 100).transpose().eval(); };
+    throw Error(
+        input.name, concat("the start (", start.transpose(), ") is outside of the scene"),
+        concat("--start X Y Z between (", rounded(input.bounds.min()), ") and (", rounded(input.bounds.max()), ")"));
+  }
+  const RayScene& rays = input.rays.emplace(scene);
   const std::vector<Eigen::Vector3d> positions = free_positions(scene, start, o);
   if (positions.empty())
     throw Error(input.name,
@@ -85,7 +91,7 @@ inline void look_from_around(Input& input, const Box3& objects, const Options& o
   input.start = input.views.front();
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1);
   input.bounds = Box3(objects.min() - margin, objects.max() + margin);
-  input.surface = seen_from(*input.scene, RayScene(*input.scene), positions, o);
+  input.surface = seen_from(*input.scene, input.rays.emplace(*input.scene), positions, o);
   std::vector<std::uint8_t> inside;  // the ground goes on beyond
   for (const Eigen::Vector3f& p : input.surface.points) inside.push_back(input.bounds.contains(p.cast<double>()));
   input.surface = input.surface.where(inside);

@@ -30,8 +30,8 @@ namespace {
 
 template <class World, class Utility, class Selector>
 Mission fly(const Options& o, const Input& input, std::ostream& log, World& world, Utility utility, Selector selector) {
-  std::optional<SurfaceCoverage> truth;
-  if (input.surface.size() != 0) truth.emplace(input.surface);
+  std::optional<SeenSurface> truth;
+  if (input.scene) truth = input.unseen(o);
   const bool colour = !input.recording || !input.recording->frames().front().colour.empty();
   NbvLoop loop{FusedMap(around(input.bounds, o.voxel_m, colour), std::move(truth)), std::move(utility),
                Pool(input.views), std::move(selector)};

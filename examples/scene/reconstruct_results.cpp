@@ -37,9 +37,7 @@ std::vector<KeyFigure> key_figures(const Options& o, const MissionRecord& record
           {"Planning", mean_ms(planning_s, plans), "ms", by},
           {"Way", short_number(tenths(last.travelled_m)), "m", concat(plans, " views flown to")},
           {"Surfels", short_number(last.metric("surfels")), "", concat(tenths(last.metric("megabytes")), " MB in all")},
-          {"Collisions", short_number(static_cast<double>(referee.collisions())), "",
-           concat("a ball of ", short_number(100 * o.body_radius_m), " cm; the nearest surface was ",
-                  short_number(std::round(100 * least_clearance_m(record))), " cm from it")}};
+          {"Collisions", short_number(static_cast<double>(referee.collisions())), "", of_the_body(o, record)}};
 }
 
 Plot curve(const std::vector<Score>& scores, std::string title, std::string unit, double Score::*value) {

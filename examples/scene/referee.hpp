@@ -23,7 +23,7 @@ namespace scene {
 class Referee {
  public:
   Referee(const Input& input, const Options& o)
-      : fused_(around(input.bounds, o.voxel_m), SurfaceCoverage(input.surface)),
+      : fused_(around(input.bounds, o.voxel_m), input.unseen(o)),
         robot_(CollisionScene(input.scene->mesh), shape::Sphere{o.body_radius_m}),
         low_m_(input.bounds.min().z() + 0.2),
         high_m_(input.bounds.max().z() - 0.4) {}
@@ -53,7 +53,7 @@ class Referee {
   /// What is known of the mission but not by the robot: for the recorder, after `measured`.
   template <CoverageMap M>
   [[nodiscard]] std::vector<Metric> metrics(const M& map) const {
-    return {{"coverage", fused_.truth()->coverage()},
+    return {{"coverage", fused_.truth()->share()},
             {"explored", map.coverage()},
             {"clearance_m", clearance_m_},
             {"collisions", static_cast<double>(collisions_)},

@@ -21,7 +21,7 @@ std::vector<Metric> Judge::operator()(const FusedMap& map) const {
   double coverage = std::numeric_limits<double>::quiet_NaN();
   m.accuracy_m = m.completeness_m = m.precision = m.completeness = m.f1 = coverage;
   if (map.truth()) {
-    coverage = map.truth()->coverage();
+    coverage = map.truth()->share();
     m = against_truth(map.mesh(), input, threshold_m);
   }
   return {{"coverage", coverage},       {"completeness", m.completeness},

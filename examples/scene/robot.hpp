@@ -25,6 +25,7 @@ struct Robot {
   double clearance_m;  ///< around the robot's centre
   double range_m;      ///< of depth
   double speed_m_s;
+  double field_of_view_rad;
   Camera sensor;  ///< as utilities render it
 
   Robot(const Options& o, const Input& input)
@@ -33,7 +34,8 @@ struct Robot {
         clearance_m(o.body_radius_m),
         range_m(o.range_m),
         speed_m_s(o.speed_m_s),
-        sensor(Camera::from_fov(128, 128, deg(o.field_of_view_deg))) {}
+        field_of_view_rad(deg(o.field_of_view_deg)),
+        sensor(Camera::from_fov(128, 128, field_of_view_rad)) {}
 
   /// What its voxels are like, in the configuration of a voxel map.
   template <class VoxelConfig>

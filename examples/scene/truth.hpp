@@ -4,7 +4,6 @@
 #include <cstddef>
 
 #include <vantage/eval/mesh_metrics.hpp>
-#include <vantage/eval/surface_coverage.hpp>
 #include <vantage/geometry/triangle_mesh.hpp>
 #include <vantage/mission/canvas.hpp>
 
@@ -19,13 +18,13 @@ inline MeshMetrics against_truth(const TriangleMesh& mesh, const Input& input, d
 }
 
 /// From above: surface that was seen (grey) and that was not (red); without floor and ceiling, which hide the rest.
-inline void draw_seen(Canvas& canvas, const SurfaceCoverage& coverage, const Box3& bounds) {
+inline void draw_seen(Canvas& canvas, const SeenSurface& truth, const Box3& bounds) {
   const double floor_m = bounds.min().z() + 0.1, ceiling_m = bounds.max().z() - 0.3;
-  const SurfaceSamples& surface = coverage.surface();
+  const SurfaceSamples& surface = truth.surface();
   for (const bool seen : {true, false})
     for (std::size_t i = 0; i < surface.size(); ++i) {
       const Eigen::Vector3d p = surface.points[i].cast<double>();
-      if ((coverage.seen()[i] != 0) != seen || p.z() < floor_m || p.z() > ceiling_m) continue;
+      if ((truth.seen()[i] != 0) != seen || p.z() < floor_m || p.z() > ceiling_m) continue;
       canvas.dot(p.head<2>(), 1.1, seen ? Rgb{120, 128, 136} : Rgb{214, 69, 61}, seen ? 0.25 : 0.7);
     }
 }

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include <vantage/eval/nearest_points.hpp>
 #include <vantage/eval/reachable_space.hpp>
 #include <vantage/eval/surface_coverage.hpp>
+#include <vantage/geometry/frame.hpp>
 #include <vantage/geometry/mesh_sampling.hpp>
 #include <vantage/sim/ray_scene.hpp>
 
@@ -52,14 +55,32 @@ inline std::vector<Eigen::Vector3d> free_positions(const Scene& scene, const Eig
   return reachable_positions(scene.mesh.bounds(), spacing_m(o), start, is_free);
 }
 
-/// The part of the surface that some of the positions see. Not more than 200 of them are asked, spread evenly.
+/// The part of the surface that can be seen from some of the positions. Not more than 1500 of them are asked, spread
+/// evenly.
 inline SurfaceSamples seen_from(const Scene& scene, const RayScene& rays, const std::vector<Eigen::Vector3d>& positions,
                                 const Options& o) {
-  const SurfaceSamples all = sample_surface(scene.mesh, 200'000, Rng(o.seed).fork(11));
+  const SurfaceSamples all = sample_surface(scene.mesh, 50'000, Rng(o.seed).fork(11));
   std::vector<Eigen::Vector3d> asked;
-  const std::size_t stride = positions.size() / 200 + 1;
+  const std::size_t stride = positions.size() / 1500 + 1;
   for (std::size_t i = 0; i < positions.size(); i += stride) asked.push_back(positions[i]);
   return all.where(visible_surface(all, asked, {.far_m = o.range_m}, Unoccluded{rays}));
 }
+
+/// Which of the surface that can be seen was seen: by a camera that had it in its image, in range, and nothing between.
+class SeenSurface {
+ public:
+  SeenSurface(SurfaceSamples surface, RayScene rays, double range_m)
+      : coverage_(std::move(surface)), rays_(std::move(rays)), range_m_(range_m) {}
+
+  void add(const Frame& frame) { coverage_.add(frame.view, frame.camera, {.far_m = range_m_}, Unoccluded{rays_}); }
+  [[nodiscard]] double share() const { return coverage_.coverage(); }
+  [[nodiscard]] const SurfaceSamples& surface() const { return coverage_.surface(); }
+  [[nodiscard]] const std::vector<std::uint8_t>& seen() const { return coverage_.seen(); }  ///< of each point: 1 or 0
+
+ private:
+  SurfaceCoverage coverage_;
+  RayScene rays_;
+  double range_m_;
+};
 
 }  // namespace scene

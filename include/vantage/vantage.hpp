@@ -8,6 +8,7 @@
 #include <vantage/concepts/map.hpp>
 #include <vantage/concepts/policy.hpp>
 #include <vantage/concepts/preset.hpp>
+#include <vantage/concepts/sides.hpp>
 #include <vantage/concepts/world.hpp>
 #include <vantage/core/assert.hpp>
 #include <vantage/core/bytes.hpp>
@@ -110,6 +111,7 @@
 #include <vantage/maps/voxel/voxel_blocks.hpp>
 #include <vantage/maps/voxel/voxel_map.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
+#include <vantage/maps/voxel/with_sides.hpp>
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/box_in_voxels.hpp>
 #include <vantage/planning/heading.hpp>
@@ -126,6 +128,8 @@
 #include <vantage/planning/voxel_collision.hpp>
 #include <vantage/planning/voxel_search.hpp>
 #include <vantage/planning/waypoints.hpp>
+#include <vantage/sampler/all_around.hpp>
+#include <vantage/sampler/fallback.hpp>
 #include <vantage/sampler/frontier.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
@@ -152,10 +156,12 @@
 #include <vantage/utility/information_gain.hpp>
 #include <vantage/utility/mean_of_channel.hpp>
 #include <vantage/utility/mean_uncertainty.hpp>
+#include <vantage/utility/once_per_view.hpp>
 #include <vantage/utility/ray_entropy.hpp>
 #include <vantage/utility/unexplored.hpp>
 #include <vantage/utility/unexplored_voxels.hpp>
 #include <vantage/utility/uninformed.hpp>
+#include <vantage/utility/unseen_sides.hpp>
 #include <vantage/utility/variance_reduction.hpp>
 #include <vantage/utility/view_distance.hpp>
 #include <vantage/version.hpp>

@@ -22,6 +22,7 @@
 #include <vantage/maps/field/methods.hpp>
 #include <vantage/maps/surfel/surfel_presets.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
+#include <vantage/maps/voxel/with_sides.hpp>
 
 #include "../voxel_scenes.hpp"
 #include "lists.hpp"
@@ -48,7 +49,7 @@ using RayPlaneMap = ActiveGsMap<preset::reference, IncrementalConfidence, TileRa
 using Maps =
     List<archetype::Map, archetype::Uncertain<>, archetype::Forecasting<>, archetype::FullMap, CarryMap, OursMap,
          Ours<preset::reference>, LatentMap, MaternMap, FrGpf<>, FrIdp<>, ArIdp<>, ArGprIk<>, ArBcm<>, VoxelMap<>,
-         PublishedVoxels, SemanticVoxelMap<5>, ActiveGsMap<>, ActiveGsMap<preset::thesis>, RayPlaneMap>;
+         PublishedVoxels, SemanticVoxelMap<5>, WithSides<>, ActiveGsMap<>, ActiveGsMap<preset::thesis>, RayPlaneMap>;
 using PersistentMaps = typename Offering<Maps, Saving>::type;
 /// How to try a map: `make()`, and `large()` if a small one does not keep several threads busy; `measurement(k)`, good
 /// ones; `refused()`, bad ones with their names; `views()`, from which it may be asked; `World`; and whether
@@ -195,6 +196,12 @@ struct MapFixture<VoxelMap<Update, Semantics, Clearance>> : RoomFixture {
     return M(c);
   }
   static M large() { return make(0.03); }
+};
+
+template <class Voxels>
+struct MapFixture<WithSides<Voxels>> : MapFixture<Voxels> {
+  static WithSides<Voxels> make() { return WithSides<Voxels>(MapFixture<Voxels>::make().config()); }
+  static WithSides<Voxels> large() { return WithSides<Voxels>(MapFixture<Voxels>::large().config()); }
 };
 
 template <class Rasteriser, class Confidence, class Variation, class Voxels>

@@ -13,6 +13,8 @@
 #include <vantage/planning/a_star.hpp>
 #include <vantage/planning/shortcut.hpp>
 #include <vantage/planning/straight_line.hpp>
+#include <vantage/sampler/all_around.hpp>
+#include <vantage/sampler/fallback.hpp>
 #include <vantage/sampler/frontier.hpp>
 #include <vantage/sampler/hemisphere.hpp>
 #include <vantage/sampler/lattice.hpp>
@@ -37,6 +39,7 @@
 #include <vantage/utility/ray_entropy.hpp>
 #include <vantage/utility/unexplored.hpp>
 #include <vantage/utility/uninformed.hpp>
+#include <vantage/utility/unseen_sides.hpp>
 #include <vantage/utility/variance_reduction.hpp>
 #include <vantage/utility/view_distance.hpp>
 
@@ -46,12 +49,13 @@
 // has no default; the contract suites, the matrix and the static product follow.
 namespace vantage::test {
 
-using Utilities = List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>,
-                       Uninformed, Unexplored, RayEntropy, InformationGain, ConfidenceExploration<>, FisherInformation,
-                       archetype::ViewUtility, archetype::HistoryUtility, archetype::PreparedUtility>;
+using Utilities =
+    List<VarianceReduction, MeanUncertainty, ViewDistance<Nearest>, ViewDistance<Mean>, ViewDistance<Sum>, Uninformed,
+         Unexplored, UnseenSides, RayEntropy, InformationGain, ConfidenceExploration<>, FisherInformation,
+         archetype::ViewUtility, archetype::HistoryUtility, archetype::PreparedUtility>;
 using Samplers = List<Lattice, Lawnmower, Hemisphere, Spiral, Pool, Local, Frontier, RoiAndLocal<frontier>,
                       RoiAndLocal<frontier, low_confidence>, ViewTree, UtilityWeighted<Lattice>, Level<Frontier>,
-                      archetype::Sampler>;
+                      AllAround, Fallback<Frontier, AllAround>, archetype::Sampler>;
 using Selectors = List<ArgMax, InOrder, FirstOfBranch, PerFlightTime, MinusCost<>, TravelTradeoff<>,
                        MinusCost<archetype::Router>, archetype::Selector>;
 using Routers = List<StraightLine, AStar, Shortcut<AStar>, archetype::Router>;
@@ -64,8 +68,8 @@ P make() {
   const Box2 field = Lattice::field_20m();
   if constexpr (std::same_as<P, MeanUncertainty> || std::same_as<P, RayEntropy> || std::same_as<P, InformationGain>)
     return P(Camera::from_fov(8, 6, deg(60)));
-  else if constexpr (std::same_as<P, Unexplored> || std::same_as<P, ConfidenceExploration<>> ||
-                     std::same_as<P, FisherInformation>)
+  else if constexpr (std::same_as<P, Unexplored> || std::same_as<P, UnseenSides> ||
+                     std::same_as<P, ConfidenceExploration<>> || std::same_as<P, FisherInformation>)
     return P({.camera = Camera::from_fov(16, 12, deg(60))});
   else if constexpr (std::same_as<P, Lattice>)
     return Lattice({.layers = {Layer::inside(field, 2, 5, 4), Layer::inside(field, 5, 2, 3)}});
@@ -81,6 +85,10 @@ P make() {
     return Frontier({.smallest_m2 = 0});
   else if constexpr (std::same_as<P, Level<Frontier>>)
     return Level(make<Frontier>());
+  else if constexpr (std::same_as<P, AllAround>)
+    return AllAround({.places = 3, .field_of_view_rad = deg(120)});
+  else if constexpr (std::same_as<P, Fallback<Frontier, AllAround>>)
+    return Fallback(make<Frontier>(), make<AllAround>(), {.least = 2});
   else if constexpr (std::same_as<P, UtilityWeighted<Lattice>>)
     return UtilityWeighted(make<Lattice>());
   else if constexpr (std::same_as<P, MissionTime>)

@@ -41,7 +41,7 @@ TEST_F(ExploreMission, SeesTheRoomAndTouchesNothing) {
     EXPECT_EQ(m["collisions"], 0);
     if (step["planned"].get<bool>()) { EXPECT_GT(m["clearance_m"].get<double>(), 0); }
   }
-  EXPECT_GE(coverage, 0.95);
+  EXPECT_GE(coverage, 0.9);
   for (const char* picture : {"map.png", "growth.png", "coverage.png", "view_1.png", "mesh_1.png"})
     EXPECT_EQ(text_of(a / picture).substr(1, 3), "PNG") << picture;
   EXPECT_GT(read_ply_mesh(a / "mesh.ply").triangles.size(), 500u);
@@ -55,15 +55,15 @@ TEST_F(ExploreMission, TakesNoMoreMeasurementsThanItIsTold) {
   EXPECT_EQ(mission("a")["steps"].back()["step"], 2);
 }
 
-TEST_F(ExploreMission, EndsWhenNoFrontierIsLeft) {
+TEST_F(ExploreMission, EndsWhenNothingIsLeftToSee) {
   ASSERT_EQ(
-      run("--room 1 --method fbe --pixels 256 --fov 75 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.08" +
+      run("--room 1 --method fbe --pixels 96 --fov 100 --clock modelled --voxel 0.05 --body 0.15 --map-voxel 0.15" +
           out("a"))
           .code,
       0);
-  const auto json = mission("a");
-  EXPECT_EQ(json["stop_reason"], "nothing_to_do");
-  EXPECT_GT(json["steps"].back()["metrics"]["coverage"].get<double>(), 0.9);
+  const auto last = mission("a")["steps"].back();
+  EXPECT_LT(last["elapsed_s"].get<double>(), 900);
+  EXPECT_GE(last["metrics"]["coverage"].get<double>(), 0.94);
 }
 
 TEST_F(ExploreMission, EveryMethodExploresAndRepeatsWithAnyThreads) {

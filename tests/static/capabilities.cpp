@@ -12,6 +12,7 @@
 #include <vantage/maps/field/integral_gp.hpp>
 #include <vantage/maps/surfel/surfel_presets.hpp>
 #include <vantage/maps/voxel/voxel_presets.hpp>
+#include <vantage/maps/voxel/with_sides.hpp>
 
 // The capability table: what each map offers, and what it does not. A map that gains or loses a capability by accident
 // does not compile here.
@@ -19,7 +20,7 @@ namespace vantage {
 namespace {
 
 using need::Coverage, need::Depth, need::Field, need::Fisher, need::Forecast, need::Navigable, need::Occupancy,
-    need::Uncertainty, need::Voxels;
+    need::Sides, need::Uncertainty, need::Voxels;
 using Frontier = need::Regions<frontier>;
 using Entropy = need::Channels<channel::Entropy>;
 using Gain = need::Channels<channel::InformationGain>;
@@ -32,7 +33,7 @@ constexpr int offered = (0 + ... + offers<M, Ns>);
 template <class M, class... Ns>
 constexpr bool offers_just = Map<M>&& offered<M, Ns...> == sizeof...(Ns) &&
                              offered<M, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels, Navigable,
-                                     Frontier, LowConfidence, Fisher, Entropy, Gain, Semantics> == sizeof...(Ns);
+                                     Frontier, LowConfidence, Fisher, Entropy, Gain, Semantics, Sides> == sizeof...(Ns);
 
 // Archetypes: each adds one capability to a plain map.
 static_assert(offers_just<archetype::Map>);
@@ -51,8 +52,9 @@ static_assert(Renders<archetype::Confident<>, channel::Depth, channel::Confidenc
               !Renders<archetype::Ranging<>, channel::Depth, channel::Confidence>);
 static_assert(offers_just<archetype::Field<>, Field>);
 static_assert(offers_just<archetype::Fisher<>, Fisher>);
+static_assert(offers_just<archetype::Sided<>, Sides>);
 static_assert(offers_just<archetype::FullMap, Uncertainty, Depth, Forecast, Field, Coverage, Occupancy, Voxels,
-                          Navigable, Frontier, LowConfidence, Fisher, Entropy, Gain>);
+                          Navigable, Frontier, LowConfidence, Fisher, Entropy, Gain, Sides>);
 static_assert(RefinableMap<archetype::Refinable<>> && !RefinableMap<archetype::Map>);
 static_assert(Persistent<archetype::Persistent<>> && !Persistent<archetype::Map>);
 
@@ -82,6 +84,7 @@ static_assert(voxel_map<VoxelMap<>> && voxel_map<PresetVoxelMap<preset::referenc
 static_assert(Renders<VoxelMap<>, channel::Depth, channel::InformationGain> && !Renders<VoxelMap<>, channel::Colour> &&
               !Renders<VoxelMap<>, channel::Depth, channel::Colour>);
 static_assert(Posed<VoxelMap<>::Measurement>);
+static_assert(voxel_map<WithSides<>, Sides> && voxel_map<WithSides<SemanticVoxelMap<5>>, Sides, Semantics>);
 
 // Semantic voxels: classes as well, and only where they are kept.
 static_assert(voxel_map<SemanticVoxelMap<5>, Semantics> &&

@@ -15,6 +15,7 @@
 #include <vantage/concepts/channels.hpp>
 #include <vantage/concepts/map.hpp>
 #include <vantage/concepts/policy.hpp>
+#include <vantage/concepts/sides.hpp>
 #include <vantage/concepts/world.hpp>
 #include <vantage/core/bytes.hpp>
 #include <vantage/core/error.hpp>
@@ -199,6 +200,16 @@ class Frontiers : public Base {
   }
 };
 
+/// SideMap: one side is seen from where x < 0, the other from elsewhere.
+template <class Base = Map>
+class Sided : public Base {
+ public:
+  [[nodiscard]] std::vector<std::uint64_t> unseen_sides(const View& view, const Camera&, double) const {
+    const std::size_t side = this->side(view.position());
+    return this->looks(side) == 0 ? std::vector<std::uint64_t>{side} : std::vector<std::uint64_t>{};
+  }
+};
+
 /// RegionMap: the middle of a side that was seen once, to be looked at from above.
 template <class Base = Frontiers<>>
 class Unsure : public Base {
@@ -248,8 +259,8 @@ class Refinable : public Base {
 };
 
 /// A map with all of it, in the order in which the layers are put on.
-using FullMap = Persistent<Refinable<Fisher<Field<Unsure<
-    Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Informative<Confident<Ranging<Uncertain<>>>>>>>>>>>>>>>;
+using FullMap = Persistent<Refinable<Fisher<Field<Sided<Unsure<
+    Frontiers<Navigable<Voxelled<Occupied<Covering<Forecasting<Informative<Confident<Ranging<Uncertain<>>>>>>>>>>>>>>>>;
 
 /// ViewUtility: psi(M, v). Here: views from the right are better, the higher the better.
 struct ViewUtility {

@@ -4,20 +4,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
-#include <memory>
-#include <mutex>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <vantage/concepts/map.hpp>
 #include <vantage/core/parallel.hpp>
-#include <vantage/geometry/view.hpp>
 #include <vantage/geometry/visible_voxels.hpp>
 #include <vantage/geometry/voxel_bits.hpp>
 #include <vantage/geometry/voxel_grid.hpp>
+#include <vantage/utility/once_per_view.hpp>
 
 namespace vantage {
 
@@ -72,43 +68,12 @@ class UnexploredVoxels {
   std::vector<VoxelBits> unknown_;
 };
 
-/// What the views see that sequences begin with: each is given again with every longer sequence, but rendered once.
-/// Const members run concurrently.
-class ViewsSeen {
- public:
-  using Seen = std::shared_ptr<const VisibleVoxels>;
-
-  /// Of each of `views`, render(view) if it was not asked for before.
-  template <class F>
-  [[nodiscard]] std::vector<Seen> operator()(Views views, F&& render) const {
-    std::vector<Seen> all;
-    for (const View& view : views) {
-      Seen seen = find(view);
-      if (!seen) {
-        seen = std::make_shared<const VisibleVoxels>(render(view));
-        const std::lock_guard lock(mutex_);
-        seen_.emplace_back(view, seen);
-      }
-      all.push_back(std::move(seen));
-    }
-    return all;
-  }
-
- private:
-  [[nodiscard]] Seen find(const View& view) const {
-    const std::lock_guard lock(mutex_);
-    for (const auto& [v, seen] : seen_)
-      if (v.T_W_C.matrix() == view.T_W_C.matrix()) return seen;
-    return nullptr;
-  }
-  mutable std::mutex mutex_;
-  mutable std::deque<std::pair<View, Seen>> seen_;
-};
+using ViewsSeen = OncePerView<VisibleVoxels>;
 
 /// How many unexplored voxels are visible that were not visible before.
 template <class M>
 std::uint64_t count_unexplored(const UnexploredVoxels<M>& voxels, const VisibleVoxels& visible,
-                               const std::vector<ViewsSeen::Seen>& before) {
+                               const std::vector<ViewsSeen::Pointer>& before) {
   std::uint64_t count = 0;
   visible.for_each_block([&](const Eigen::Vector3i& block) {
     VoxelBits bits = visible(block, voxels.in(block));
