@@ -124,8 +124,9 @@ class WithSides : public Voxels {
     std::vector<Side> all(width * static_cast<std::size_t>(camera.height));
     parallel_for_blocks(all.size(), 1024, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
-        const Eigen::Vector3d ray = view.T_W_C.linear() * camera.ray(static_cast<double>(i % width) + 0.5,
-                                                                     static_cast<double>(i / width) + 0.5);
+        const std::size_t row = i / width, column = i % width;
+        const Eigen::Vector3d ray =
+            view.T_W_C.linear() * camera.ray(static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
         if (const auto hit = caster.first_not_free(eye, ray, far_m)) all[i] = {hit->voxel, direction_of(-ray)};
       }
     });
