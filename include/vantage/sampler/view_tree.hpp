@@ -68,7 +68,10 @@ class ViewTree {
     const std::vector<View> seed = std::exchange(branch_, {});
     const VoxelGrid& grid = map.grid();
     if (!grid.box().contains(q.here.position())) return {};
-    const Passable<M> open(map, grid.voxel_at(q.here.position()), config_.own_ball_m);
+    const Eigen::Vector3i own = grid.voxel_at(q.here.position());
+    const Passable<M> open(map, own, config_.own_ball_m);
+    // The ball around the robot lets it leave, not creep on to where it does not fit.
+    const auto fits = [&](const Eigen::Vector3i& voxel) { return voxel == own || map.navigable(voxel); };
     Tree tree{.root = q.here};
     if (!seed.empty() && same_place(seed.front(), q.here))
       for (std::size_t k = 1; k < seed.size() && k <= static_cast<std::size_t>(config_.nodes); ++k) {
@@ -78,7 +81,7 @@ class ViewTree {
       }
     const auto most = static_cast<std::size_t>(config_.max_nodes);
     for (auto n = static_cast<std::size_t>(config_.nodes);; n = std::min(2 * n, most)) {
-      const bool grown = grow(tree, n, grid.box(), open, rng);
+      const bool grown = grow(tree, n, grid, open, fits, rng);
       evaluate(tree, score);
       const auto best = std::max_element(tree.gain.begin(), tree.gain.end());  // the first of equals
       if (best == tree.gain.end()) return {};
@@ -130,8 +133,9 @@ class ViewTree {
 
   /// Up to n nodes; whether there are so many. A node costs as many draws as it takes to find an open edge, in the mean
   /// not more than a hundred.
-  template <class P>
-  bool grow(Tree& tree, std::size_t n, const Box3& box, const P& open, Rng& rng) const {
+  template <class P, class F>
+  bool grow(Tree& tree, std::size_t n, const VoxelGrid& grid, const P& open, const F& fits, Rng& rng) const {
+    const Box3 box = grid.box();
     for (std::size_t draws = 100 * n; tree.views.size() < n && draws > 0; --draws) {
       Eigen::Vector3d p;
       for (int axis = 0; axis < 3; ++axis) p[axis] = rng.uniform(box.min()[axis], box.max()[axis]);
@@ -141,7 +145,7 @@ class ViewTree {
       const double way_m = way.norm();
       if (way_m < 1e-6) continue;
       const Eigen::Vector3d to = from + std::min(1.0, config_.step_m / way_m) * way;
-      if (!line_of_sight(open, from, to)) continue;
+      if (!fits(grid.voxel_at(to)) || !line_of_sight(open, from, to)) continue;
       tree.add(look_at(to, to + Eigen::Vector3d(std::cos(yaw_rad), std::sin(yaw_rad), 0)), before);
     }
     return tree.views.size() == n;

@@ -142,6 +142,22 @@ TEST_F(Corridor, ProposesNothingWhereItCannotGo) {
     EXPECT_EQ(grid.voxel_at(v.position()), grid.voxel_at(here.position()));
 }
 
+TEST_F(Corridor, LeavesWhereItDoesNotFitAndDoesNotCreepOn) {
+  // Around the robot nothing is known, but its own ball reaches to where it fits.
+  test::DrawnVoxels narrow(grid, 0.2);
+  narrow.draw_all([&](const Eigen::Vector3i& v) {
+    return (grid.centre(v) - here.position()).norm() < 0.45 ? Space::unknown : Space::free;
+  });
+  ViewTree tree({.nodes = 50, .own_ball_m = 0.7});
+  int away = 0;
+  for (const View& v : grow(tree, narrow, here, 1, Rightmost{}).views) {
+    const Eigen::Vector3i voxel = grid.voxel_at(v.position());
+    EXPECT_TRUE(voxel == grid.voxel_at(here.position()) || narrow.navigable(voxel));
+    away += narrow.navigable(voxel);
+  }
+  EXPECT_GT(away, 0);
+}
+
 TEST(ViewTree, KeepsToWhereItIsInABoxThatIsSmallerThanTheBody) {
   for (const double length_m : {1.2, 0.1}) {
     const VoxelMap<> box = test::tight_box(length_m, std::min(length_m, 0.4));
